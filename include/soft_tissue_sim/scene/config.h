@@ -1,0 +1,224 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "soft_tissue_sim/base/types.h"
+
+/**
+ * A scene as its file names it, checked and in SI units, before anything is built from it.
+ * The schema that fills these structs is in src/scene/schema_*.cpp; defaults stand here only.
+ */
+namespace soft_tissue
+{
+struct PoseConfig
+{
+  Vec3 position_m = Vec3::Zero();
+  Vec3 rotation_rpy_rad = Vec3::Zero();  ///< fixed-axis roll, pitch, yaw as in URDF
+
+  Pose toPose() const;
+};
+
+struct MeshConfig
+{
+  std::string file;  ///< absolute path, package:// and relative names already resolved
+  double metres_per_unit = 1.0;
+};
+
+enum class MaterialModel
+{
+  neo_hookean,
+  corotated,
+};
+
+struct MaterialConfig
+{
+  MaterialModel model = MaterialModel::neo_hookean;
+  double young_modulus_pa = 0.0;
+  double poisson_ratio = 0.0;
+  double density_kg_per_m3 = 0.0;
+};
+
+/** What a region with this tag has different from the tissue's material. */
+struct RegionConfig
+{
+  int tag = 0;
+  std::optional<double> young_modulus_pa;
+  std::optional<double> poisson_ratio;
+  std::optional<double> density_kg_per_m3;
+};
+
+/** Axis-aligned box in the world frame, metres. */
+struct BoxConfig
+{
+  Vec3 min = Vec3::Zero();
+  Vec3 max = Vec3::Zero();
+};
+
+enum class DepthKind
+{
+  interpolated,     ///< linear in the tet from nodal depths, as in both papers
+  closest_feature,  ///< true distance to the nearest boundary feature
+};
+
+enum class FieldRefresh
+{
+  carried,  ///< nodal depths of the rest state, carried along
+  lazy,     ///< marched anew on the deformed mesh each step, only as far as contacts read
+  full,     ///< marched anew on the deformed mesh each step, everywhere
+};
+
+struct FieldConfig
+{
+  std::string method = "cffm";
+  DepthKind depth = DepthKind::closest_feature;
+  FieldRefresh refresh = FieldRefresh::lazy;
+};
+
+struct TissueConfig
+{
+  std::string name;
+  MeshConfig mesh;
+  PoseConfig pose;
+  MaterialConfig material;
+  std::vector<RegionConfig> regions;
+  std::vector<BoxConfig> fixed;
+  FieldConfig field;
+};
+
+struct SphereShape
+{
+  double radius_m = 0.0;
+};
+
+/** Segment of this length along z, centred at the origin, swept by a ball. */
+struct CapsuleShape
+{
+  double radius_m = 0.0;
+  double length_m = 0.0;
+};
+
+struct BoxShape
+{
+  Vec3 size_m = Vec3::Zero();  ///< full edge lengths
+};
+
+/** A closed triangle mesh, given in the shape frame. */
+struct MeshShape
+{
+  MeshConfig mesh;
+  Vec3 scale = Vec3::Ones();
+};
+
+using ShapeGeometry = std::variant<SphereShape, CapsuleShape, BoxShape, MeshShape>;
+
+/** One solid of a tool, placed in the tool frame. */
+struct ShapeConfig
+{
+  ShapeGeometry geometry;
+  PoseConfig origin;  ///< pose of the shape frame in the tool frame
+};
+
+/** Tool geometry taken from one link of a URDF; the node layer turns it into ShapeConfigs. */
+struct UrdfShapeConfig
+{
+  std::string file;  ///< absolute path
+  std::string link;
+};
+
+struct PoseKeyframe
+{
+  double time_s = 0.0;
+  PoseConfig pose;
+};
+
+struct PoseSourceConfig
+{
+  enum class Kind
+  {
+    keyframes,
+    topic,
+    tf,
+  };
+  Kind kind = Kind::topic;
+  std::vector<PoseKeyframe> keyframes;  ///< ascending times; linear / slerp between, held outside
+  std::string name;                     ///< topic below the tool's namespace, or tf frame
+};
+
+struct ToolConfig
+{
+  std::string name;
+  std::vector<ShapeConfig> shapes;
+  std::optional<UrdfShapeConfig> urdf;
+  PoseConfig initial_pose;  ///< where the tool waits for its first command; key frames override it
+  PoseSourceConfig pose_source;
+};
+
+enum class Response
+{
+  point,
+  segment,
+};
+
+struct ContactConfig
+{
+  std::string tissue;
+  std::string tool;
+  Response response = Response::segment;
+  std::optional<double> stiffness_pa_per_m;  ///< empty: chosen from tissue and tool
+  double friction = 0.0;                     ///< Coulomb coefficient
+};
+
+enum class Stepper
+{
+  implicit_euler,
+  quasi_static,
+};
+
+enum class LinearSolverKind
+{
+  automatic,
+  pcg,
+  cholesky,
+};
+
+struct SolverConfig
+{
+  Stepper stepper = Stepper::implicit_euler;
+  double tolerance = 1.0e-3;   ///< residual over the sum of the norms of the acting forces
+  int max_iterations = 20;     ///< Newton iterations a step may take
+  LinearSolverKind linear = LinearSolverKind::automatic;
+};
+
+struct OutputsConfig
+{
+  bool stress = false;
+};
+
+struct SceneConfig
+{
+  std::string file;  ///< where it came from, for messages
+  double time_step_s = 0.005;
+  Vec3 gravity_m_per_s2 = Vec3(0.0, 0.0, -9.81);
+  SolverConfig solver;
+  std::vector<TissueConfig> tissues;
+  std::vector<ToolConfig> tools;
+  std::vector<ContactConfig> contacts;
+  OutputsConfig outputs;
+};
+
+/** Turns "package://name/rest" into a path; the node layer gives one that asks rospack. */
+using PackageResolver = std::string (*)(const std::string& package);
+
+/**
+ * Reads and checks a scene file.
+ * @param path      YAML file; relative names in it are taken from its folder
+ * @param resolver  finds packages for package:// names; may be null, then such names are errors
+ * @throws Error naming file, key, value and allowed range
+ */
+SceneConfig loadSceneConfig(const std::string& path, PackageResolver resolver);
+
+}  // namespace soft_tissue

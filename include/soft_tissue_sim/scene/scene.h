@@ -1,0 +1,143 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "soft_tissue_sim/base/types.h"
+#include "soft_tissue_sim/mesh/topology.h"
+#include "soft_tissue_sim/scene/config.h"
+
+namespace soft_tissue
+{
+/** Wall time of one step by stage, milliseconds. */
+struct StageTimes
+{
+  double fem = 0.0;      ///< element energies, forces and stiffness
+  double field = 0.0;    ///< distance field refresh
+  double detect = 0.0;   ///< who overlaps whom
+  double respond = 0.0;  ///< contact energies, forces, Hessians
+  double solve = 0.0;    ///< linear systems
+  double total = 0.0;    ///< the whole step
+};
+
+/** How one step went. */
+struct StepReport
+{
+  std::uint64_t step = 0;      ///< number of the step, from 1
+  double time_s = 0.0;         ///< simulated time at its end
+  int newton_iterations = 0;
+  int linear_iterations = 0;
+  double residual = 0.0;       ///< relative, see SolverConfig::tolerance
+  bool converged = false;
+  int halvings = 0;            ///< how often the step was halved before it went through
+  bool held = false;           ///< it did not go through: the last good state was kept
+  double min_det_f = 1.0;
+  double max_penetration_m = 0.0;
+  int contacts = 0;
+  StageTimes ms;
+};
+
+/** One contact sample between a tool and a tissue, world frame. */
+struct ContactPoint
+{
+  Vec3 position_W;      ///< m
+  Vec3 normal_W;        ///< unit, out of the tissue: the direction in which the tool is pushed
+  double depth = 0.0;   ///< m
+  double area = 0.0;    ///< m^2 of the surface it stands for
+  Vec3 force_W;         ///< N, of the tissue on the tool
+  Index tissue = -1;    ///< index of the tissue
+};
+
+/** Force and moment of all tissues on a tool, at the tool frame's origin, in world axes. */
+struct Wrench
+{
+  Vec3 force = Vec3::Zero();   ///< N
+  Vec3 torque = Vec3::Zero();  ///< N m
+};
+
+/** Everything of one tissue that does not change while it deforms. */
+struct TissueInfo
+{
+  std::string name;
+  TetMesh rest;  ///< rest state, world frame
+  BoundarySurface surface;
+  std::vector<Index> fixed_nodes;
+};
+
+struct TissueState
+{
+  Points positions;               ///< N, world, m
+  Points velocities;              ///< N, world, m/s
+  std::vector<double> depth;      ///< N nodal depths of the last field, m; NaN where not marched; empty without a field
+  std::vector<float> von_mises;   ///< M, Pa; empty unless the scene asks for stress
+};
+
+struct ToolState
+{
+  Pose X_WT = Pose::Identity();
+  Wrench wrench_W;
+  std::vector<ContactPoint> contacts;
+};
+
+/** A tool's surface for display, tool frame. */
+struct ToolInfo
+{
+  std::string name;
+  TriMesh surface;
+};
+
+/** A finished step, free of the scene that made it: what publishers and recorders read. */
+struct Snapshot
+{
+  StepReport report;
+  std::uint64_t state_hash = 0;
+  std::vector<TissueState> tissues;
+  std::vector<ToolState> tools;
+};
+
+/** Bodies, tools and the one potential they move in. Not thread safe: one thread owns it. */
+class Scene
+{
+ public:
+  /**
+   * Builds the bodies a configuration names.
+   * @throws Error for a mesh that can't be read, a fixed box that fixes nothing, a tool deep inside tissue, ...
+   */
+  explicit Scene(const SceneConfig& config);
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  const SceneConfig& config() const;
+  const std::vector<TissueInfo>& tissues() const;
+  const std::vector<ToolInfo>& tools() const;
+
+  /** Simulated time, s. */
+  double time() const;
+
+  /** Where the tool shall be at the end of the next step. Key-framed tools ignore it. */
+  void setToolTarget(std::size_t tool, const Pose& X_WT);
+
+  /** Moves simulated time on by one time step. Never throws for numerical reasons: see StepReport::held. */
+  const StepReport& step();
+
+  /** Rest shape, zero velocity, tools at their initial poses; time goes on. */
+  void resetWorld();
+
+  /** Hash of every bit of the dynamic state: positions, velocities, tool poses, step count. */
+  std::uint64_t stateHash() const;
+
+  /** Copies the state out, reusing the memory `snapshot` already has. */
+  void fillSnapshot(Snapshot& snapshot) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/** Number of threads steps may use, process wide; the result does not depend on it. */
+void setThreadCount(int threads);
+
+}  // namespace soft_tissue
