@@ -11,9 +11,10 @@ namespace soft_tissue
 /** What a reader found beside the mesh itself; nothing in it is fatal, all of it is to be told. */
 struct LoadReport
 {
-  std::string format;                 ///< e.g. "gmsh 4.1 binary"
-  std::size_t reoriented_tets = 0;    ///< left-handed tets whose winding was turned on load
-  std::size_t ignored_elements = 0;   ///< elements of other kinds (points, lines, triangles beside tets)
+  std::string format;               ///< e.g. "gmsh 4.1 binary"
+  std::size_t reoriented_tets = 0;  ///< left-handed tets whose winding was turned on load
+  std::size_t ignored_elements =
+      0;  ///< elements of other kinds (points, lines, triangles beside tets)
   std::vector<std::string> warnings;  ///< one sentence each
 };
 
@@ -35,8 +36,8 @@ struct LoadedTriMesh
  * Reads a tetrahedral mesh: Gmsh .msh 1 / 2.2 / 4.1 (ASCII, binary), legacy .vtk (ASCII, binary),
  * VTK XML .vtu (ASCII), TetGen .node/.ele, Medit .mesh, tetrahedral ASCII .ply.
  *
- * The format is told by the file's content, not its name. Left-handed tets are turned and counted in
- * the report.
+ * The format is told by the file's content, not its name. Left-handed tets are turned and counted
+ * in the report.
  * @param path             file; for TetGen either the .node or the .ele file
  * @param metres_per_unit  length of one file unit in metres, > 0
  * @throws Error naming the file, the line or record, and the reason
@@ -52,7 +53,8 @@ LoadedTetMesh loadTetMesh(const std::string& path, double metres_per_unit);
  */
 LoadedTriMesh loadTriMesh(const std::string& path, double metres_per_unit);
 
-/** Writes Gmsh 2.2 ASCII with 17 significant digits, in metres. @throws Error if the file can't be written */
+/** Writes Gmsh 2.2 ASCII with 17 significant digits, in metres. @throws Error if the file can't be
+ * written */
 void saveGmsh(const std::string& path, const TetMesh& mesh);
 
 /** Writes binary STL in metres. @throws Error if the file can't be written */

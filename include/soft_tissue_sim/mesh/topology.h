@@ -6,7 +6,8 @@
 
 namespace soft_tissue
 {
-/** Compressed rows: the items of row i are items[offsets[i]] ... items[offsets[i+1]-1], ascending. */
+/** Compressed rows: the items of row i are items[offsets[i]] ... items[offsets[i+1]-1], ascending.
+ */
 struct Adjacency
 {
   std::vector<Index> offsets;
@@ -30,17 +31,20 @@ Adjacency nodeTets(Index node_count, const std::vector<Tet>& tets);
  */
 std::vector<std::array<Index, 4>> tetNeighbours(const std::vector<Tet>& tets);
 
-/** The boundary of a tet mesh: faces that belong to exactly one tet. Node numbers are the tet mesh's. */
+/** The boundary of a tet mesh: faces that belong to exactly one tet. Node numbers are the tet
+ * mesh's. */
 struct BoundarySurface
 {
-  std::vector<Triangle> triangles;              ///< outward (counter-clockwise from outside) in the rest state
-  std::vector<Index> triangle_tet;              ///< the tet each triangle belongs to
-  std::vector<Index> nodes;                     ///< nodes on the boundary, ascending
-  std::vector<Index> node_slot;                 ///< per tet-mesh node: its place in `nodes`, or -1 inside
-  std::vector<Edge> edges;                      ///< each undirected edge once, smaller node first, ascending
-  std::vector<std::array<Index, 3>> triangle_edges;      ///< per triangle: edge (v0,v1), (v1,v2), (v2,v0)
-  std::vector<std::array<Index, 3>> triangle_neighbours; ///< across those edges; -1 open or non-manifold
-  Adjacency node_triangles;                     ///< rows: all tet-mesh nodes (empty inside); triangles that contain it
+  std::vector<Triangle> triangles;  ///< outward (counter-clockwise from outside) in the rest state
+  std::vector<Index> triangle_tet;  ///< the tet each triangle belongs to
+  std::vector<Index> nodes;         ///< nodes on the boundary, ascending
+  std::vector<Index> node_slot;     ///< per tet-mesh node: its place in `nodes`, or -1 inside
+  std::vector<Edge> edges;          ///< each undirected edge once, smaller node first, ascending
+  std::vector<std::array<Index, 3>>
+      triangle_edges;  ///< per triangle: edge (v0,v1), (v1,v2), (v2,v0)
+  std::vector<std::array<Index, 3>>
+      triangle_neighbours;   ///< across those edges; -1 open or non-manifold
+  Adjacency node_triangles;  ///< rows: all tet-mesh nodes (empty inside); triangles that contain it
 };
 
 BoundarySurface extractBoundary(Index node_count, const std::vector<Tet>& tets);

@@ -1,0 +1,184 @@
+#include "soft_tissue_sim/mesh/topology.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+#include "soft_tissue_sim/mesh/grouping.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** Rows of the elements that contain each node. */
+template <std::size_t K>
+Adjacency incidence(Index node_count, const std::vector<std::array<Index, K>>& elements)
+{
+  Adjacency rows;
+  rows.offsets.assign(static_cast<std::size_t>(node_count) + 1, 0);
+  for (const auto& element : elements)
+  {
+    for (const Index node : element)
+    {
+      ++rows.offsets[node + 1];
+    }
+  }
+  for (Index i = 0; i < node_count; ++i)
+  {
+    rows.offsets[i + 1] += rows.offsets[i];
+  }
+  rows.items.resize(rows.offsets.back());
+  std::vector<Index> fill(rows.offsets.begin(), rows.offsets.end() - 1);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+  {
+    for (const Index node : elements[e])
+    {
+      rows.items[fill[node]++] = static_cast<Index>(e);
+    }
+  }
+  return rows;
+}
+
+void collectBoundaryTriangles(Index node_count, const std::vector<Tet>& tets, BoundarySurface& out)
+{
+  const Adjacency faces = groupTetFaces(node_count, tets);
+  std::vector<Index> single;
+  for (Index row = 0; row < faces.size(); ++row)
+  {
+    if (faces.end(row) - faces.begin(row) == 1)
+    {
+      single.push_back(*faces.begin(row));
+    }
+  }
+  std::sort(single.begin(), single.end());
+  for (const Index face : single)
+  {
+    out.triangles.push_back(tetFace(tets[face / 4], face % 4));
+    out.triangle_tet.push_back(face / 4);
+  }
+}
+
+void collectBoundaryNodes(Index node_count, BoundarySurface& out)
+{
+  out.node_slot.assign(node_count, -1);
+  for (Index node = 0; node < node_count; ++node)
+  {
+    if (out.node_triangles.offsets[node] != out.node_triangles.offsets[node + 1])
+    {
+      out.node_slot[node] = static_cast<Index>(out.nodes.size());
+      out.nodes.push_back(node);
+    }
+  }
+}
+
+void collectBoundaryEdges(Index node_count, BoundarySurface& out)
+{
+  const Adjacency groups = groupTriangleEdges(node_count, out.triangles);
+  out.triangle_edges.resize(out.triangles.size());
+  out.triangle_neighbours.assign(out.triangles.size(), {-1, -1, -1});
+  out.edges.reserve(groups.size());
+  for (Index edge = 0; edge < groups.size(); ++edge)
+  {
+    const Index* half = groups.begin(edge);
+    const Triangle& triangle = out.triangles[half[0] / 3];
+    out.edges.push_back(sortedKey(Edge{triangle[half[0] % 3], triangle[(half[0] % 3 + 1) % 3]}));
+    for (const Index* h = half; h != groups.end(edge); ++h)
+    {
+      out.triangle_edges[*h / 3][*h % 3] = edge;
+    }
+    if (groups.end(edge) - half == 2)
+    {
+      out.triangle_neighbours[half[0] / 3][half[0] % 3] = half[1] / 3;
+      out.triangle_neighbours[half[1] / 3][half[1] % 3] = half[0] / 3;
+    }
+  }
+}
+}  // namespace
+
+Adjacency groupTetFaces(Index node_count, const std::vector<Tet>& tets)
+{
+  std::vector<Triangle> keys;
+  keys.reserve(4 * tets.size());
+  for (const Tet& tet : tets)
+  {
+    for (Index k = 0; k < 4; ++k)
+    {
+      keys.push_back(sortedKey(tetFace(tet, k)));
+    }
+  }
+  return groupEqual(node_count, keys);
+}
+
+Adjacency groupTriangleEdges(Index node_count, const std::vector<Triangle>& triangles)
+{
+  std::vector<Edge> keys;
+  keys.reserve(3 * triangles.size());
+  for (const Triangle& triangle : triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      keys.push_back(sortedKey(Edge{triangle[k], triangle[(k + 1) % 3]}));
+    }
+  }
+  return groupEqual(node_count, keys);
+}
+
+Adjacency nodeTets(Index node_count, const std::vector<Tet>& tets)
+{
+  return incidence(node_count, tets);
+}
+
+Adjacency nodeNeighbours(Index node_count, const std::vector<Tet>& tets)
+{
+  const Adjacency incident = nodeTets(node_count, tets);
+  Adjacency rows;
+  rows.offsets.reserve(static_cast<std::size_t>(node_count) + 1);
+  rows.offsets.push_back(0);
+  std::vector<Index> row;
+  for (Index node = 0; node < node_count; ++node)
+  {
+    row.clear();
+    for (const Index* tet = incident.begin(node); tet != incident.end(node); ++tet)
+    {
+      row.insert(row.end(), tets[*tet].begin(), tets[*tet].end());
+    }
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    std::remove_copy(row.begin(), row.end(), std::back_inserter(rows.items), node);
+    rows.offsets.push_back(static_cast<Index>(rows.items.size()));
+  }
+  return rows;
+}
+
+std::vector<std::array<Index, 4>> tetNeighbours(const std::vector<Tet>& tets)
+{
+  Index node_count = 0;
+  for (const Tet& tet : tets)
+  {
+    node_count = std::max(node_count, *std::max_element(tet.begin(), tet.end()) + 1);
+  }
+  const Adjacency faces = groupTetFaces(node_count, tets);
+  std::vector<std::array<Index, 4>> neighbours(tets.size(), {-1, -1, -1, -1});
+  for (Index row = 0; row < faces.size(); ++row)
+  {
+    const Index* face = faces.begin(row);
+    if (faces.end(row) - face == 2)
+    {
+      neighbours[face[0] / 4][face[0] % 4] = face[1] / 4;
+      neighbours[face[1] / 4][face[1] % 4] = face[0] / 4;
+    }
+  }
+  return neighbours;
+}
+
+BoundarySurface extractBoundary(Index node_count, const std::vector<Tet>& tets)
+{
+  BoundarySurface out;
+  collectBoundaryTriangles(node_count, tets, out);
+  out.node_triangles = incidence(node_count, out.triangles);
+  collectBoundaryNodes(node_count, out);
+  collectBoundaryEdges(node_count, out);
+  return out;
+}
+
+}  // namespace soft_tissue
