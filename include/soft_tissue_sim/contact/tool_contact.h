@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/energy/term.h"
+#include "soft_tissue_sim/field/distance_field.h"
+#include "soft_tissue_sim/geometry/rigid_shape.h"
+
+namespace soft_tissue
+{
+/** How contact between a tool and a tissue is modelled. */
+struct ToolContactOptions
+{
+  bool segments = true;             ///< segment-in-object; false: point-in-object
+  bool closest_feature = true;      ///< depth from the nearest boundary feature; false: interpolated nodal depths
+  double stiffness_pa_per_m = 0.0;  ///< kappa
+  double friction = 0.0;            ///< Coulomb coefficient
+  double friction_speed = 1e-3;     ///< m/s below which friction is smoothed
+};
+
+/** The body a tool presses, as the contact sees it; everything pointed to outlives the contact. */
+struct TissueBody
+{
+  const std::vector<Tet>* tets = nullptr;
+  const BoundarySurface* surface = nullptr;
+  const std::vector<std::array<Index, 4>>* tet_neighbours = nullptr;
+  Index first_node = 0;  ///< row of the body's node 0 in the positions of the whole scene
+  Index node_count = 0;
+};
+
+/** Wall time of a contact's parts since the last call of takeTimes(), s. */
+struct ContactTimes
+{
+  double field = 0.0;
+  double detect = 0.0;
+  double respond = 0.0;
+};
+
+/**
+ * Penalty contact of one rigid tool with one tissue: tool surface in the tissue's depth, and tissue surface in
+ * the tool's exact distance, each the integral of 1/2 kappa d^2 dA, averaged.
+ *
+ * beginStep() lags what the minimisation holds fixed: tool pose, candidate elements, surface areas, nodal depths.
+ */
+class ToolContact : public EnergyTerm
+{
+ public:
+  ToolContact(const TissueBody& tissue, const RigidBodyShape& tool, std::unique_ptr<DistanceField> field,
+              const ToolContactOptions& options);
+  ~ToolContact() override;
+
+  /**
+   * Takes the state a step starts from.
+   * @param x            positions at the start of the step
+   * @param X_WT_before  tool pose at the start of the step
+   * @param X_WT         tool pose at its end: the pose contact is evaluated at
+   * @param step_s       length of the step, for friction
+   * @param refresh      march the nodal depths anew on x (only as far as needed) rather than keep them
+   */
+  void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s, bool refresh);
+
+  /** False when nothing can touch during this step: value, gradient and Hessian are then zero. */
+  bool active() const;
+
+  double value(const Points& x) override;
+  void addGradient(const Points& x, Points& gradient) override;
+  void addHessian(const Points& x, BlockMatrix& hessian) override;
+
+  /** The samples at x, world frame; valid until the next call of any member. */
+  const std::vector<ContactSample>& samples(const Points& x);
+
+  /** Nodal depths of the last field; all NaN before the first. */
+  const std::vector<double>& depth() const;
+
+  ContactTimes takeTimes();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace soft_tissue

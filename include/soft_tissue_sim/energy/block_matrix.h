@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "soft_tissue_sim/mesh/topology.h"
+
+namespace soft_tissue
+{
+/**
+ * Square symmetric matrix of 3 x 3 blocks with a fixed pattern: one block row per node, a block for each
+ * pair of nodes that share an element (both triangles stored) and for each node itself.
+ */
+class BlockMatrix
+{
+ public:
+  BlockMatrix() = default;
+  /** Pattern: row i holds i itself and all of neighbours' row i. */
+  explicit BlockMatrix(const Adjacency& neighbours);
+
+  Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
+  void setZero();
+
+  /** Position of block (row, column) in blocks(), or -1 outside the pattern. O(log row length). */
+  Index find(Index row, Index column) const;
+  Index diagonal(Index row) const { return diagonal_[row]; }
+
+  /** Row-major 9 doubles of one block. */
+  double* block(Index position) { return values_.data() + 9 * static_cast<std::size_t>(position); }
+  const double* block(Index position) const
+  {
+    return values_.data() + 9 * static_cast<std::size_t>(position);
+  }
+
+  /** Adds B at (row, column), and only there: the caller adds the transpose at (column, row). */
+  void add(Index row, Index column, const Mat3& b);
+
+  const std::vector<Index>& offsets() const { return offsets_; }
+  const std::vector<Index>& columns() const { return columns_; }
+  const std::vector<double>& values() const { return values_; }
+  std::vector<double>& values() { return values_; }
+
+ private:
+  std::vector<Index> offsets_;   ///< rows + 1
+  std::vector<Index> columns_;   ///< ascending within a row
+  std::vector<Index> diagonal_;  ///< rows
+  std::vector<double> values_;   ///< 9 per block
+};
+
+}  // namespace soft_tissue

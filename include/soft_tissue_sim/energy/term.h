@@ -1,0 +1,30 @@
+#pragma once
+
+#include "soft_tissue_sim/base/types.h"
+#include "soft_tissue_sim/energy/block_matrix.h"
+
+namespace soft_tissue
+{
+/**
+ * One term of the potential, a function of the positions of all nodes of all bodies.
+ *
+ * x and gradient are N x 3, world frame, metres and newtons. Terms add to what is there. A virtual call
+ * is per term and evaluation, never per element. What a term lags (frames, areas, nodal depths) it takes
+ * before the minimisation starts; from there value, gradient and Hessian belong together.
+ */
+class EnergyTerm
+{
+ public:
+  virtual ~EnergyTerm() = default;
+
+  /** Energy at x, joules. */
+  virtual double value(const Points& x) = 0;
+
+  /** gradient += d value / dx. */
+  virtual void addGradient(const Points& x, Points& gradient) = 0;
+
+  /** hessian += positive semi-definite part of d2 value / dx2. */
+  virtual void addHessian(const Points& x, BlockMatrix& hessian) = 0;
+};
+
+}  // namespace soft_tissue
