@@ -24,7 +24,7 @@ class BlockMatrix
   Index find(Index row, Index column) const;
   Index diagonal(Index row) const { return diagonal_[row]; }
 
-  /** Row-major 9 doubles of one block. */
+  /** Column-major 9 doubles of one block. */
   double* block(Index position) { return values_.data() + 9 * static_cast<std::size_t>(position); }
   const double* block(Index position) const
   {
@@ -43,7 +43,7 @@ class BlockMatrix
   std::vector<Index> offsets_;   ///< rows + 1
   std::vector<Index> columns_;   ///< ascending within a row
   std::vector<Index> diagonal_;  ///< rows
-  std::vector<double> values_;   ///< 9 per block
+  std::vector<double> values_;   ///< 9 per block, and 3 more so that wide loads stay inside
 };
 
 }  // namespace soft_tissue

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/base/types.h"
 #include "soft_tissue_sim/mesh/topology.h"
 #include "soft_tissue_sim/scene/config.h"
@@ -136,8 +137,5 @@ class Scene
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/** Number of threads steps may use, process wide; the result does not depend on it. */
-void setThreadCount(int threads);
 
 }  // namespace soft_tissue

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "soft_tissue_sim/base/types.h"
+
+namespace soft_tissue
+{
+/** Threads that parallel loops may use, process wide, >= 1. Results never depend on it. */
+void setThreadCount(int threads);
+int threadCount();
+
+namespace detail
+{
+using ChunkFunction = void (*)(const void* context, Index chunk);
+void runChunks(Index chunks, ChunkFunction function, const void* context);
+constexpr Index kMaxSumChunks = 256;
+inline Index chunkCount(Index count, Index grain) { return (count + grain - 1) / grain; }
+}  // namespace detail
+
+/**
+ * Calls body(begin, end) for consecutive pieces of [0, count), `grain` items each, possibly at once on
+ * several threads. The pieces depend on count and grain only. Allocates nothing in a steady state.
+ */
+template <typename Body>
+void parallelFor(Index count, Index grain, const Body& body)
+{
+  struct Context
+  {
+    const Body* body;
+    Index count, grain;
+  } const context{&body, count, grain};
+  detail::runChunks(
+      detail::chunkCount(count, grain),
+      [](const void* data, Index chunk) {
+        const Context& c = *static_cast<const Context*>(data);
+        const Index begin = chunk * c.grain;
+        (*c.body)(begin, begin + c.grain < c.count ? begin + c.grain : c.count);
+      },
+      &context);
+}
+
+/**
+ * Sum of body(begin, end) over such pieces, added in their order: the same bits for any thread count.
+ * At most 256 pieces: the grain is enlarged for longer ranges.
+ */
+template <typename Body>
+double parallelSum(Index count, Index grain, const Body& body)
+{
+  if (detail::chunkCount(count, grain) > detail::kMaxSumChunks)
+  {
+    grain = detail::chunkCount(count, detail::kMaxSumChunks);
+  }
+  std::array<double, detail::kMaxSumChunks> partial;
+  double* sums = partial.data();
+  parallelFor(count, grain, [&body, sums, grain](Index begin, Index end) {
+    sums[begin / grain] = body(begin, end);
+  });
+  double sum = 0.0;
+  for (Index chunk = 0; chunk < detail::chunkCount(count, grain); ++chunk)
+  {
+    sum += sums[chunk];
+  }
+  return sum;
+}
+
+}  // namespace soft_tissue

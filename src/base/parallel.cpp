@@ -1,0 +1,58 @@
+#include "soft_tissue_sim/base/parallel.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue
+{
+namespace
+{
+std::atomic<int> g_threads{1};
+std::unique_ptr<tbb::task_arena> g_arena;
+}  // namespace
+
+void setThreadCount(int threads)
+{
+  if (threads < 1)
+  {
+    throw Error("threads = " + std::to_string(threads) + ", must be at least 1");
+  }
+  if (threads == g_threads)
+  {
+    return;
+  }
+  g_arena = threads > 1 ? std::make_unique<tbb::task_arena>(threads) : nullptr;
+  g_threads = threads;
+}
+
+int threadCount()
+{
+  return g_threads;
+}
+
+namespace detail
+{
+void runChunks(Index chunks, ChunkFunction function, const void* context)
+{
+  if (g_threads == 1 || chunks <= 1)
+  {
+    for (Index chunk = 0; chunk < chunks; ++chunk)
+    {
+      function(context, chunk);
+    }
+    return;
+  }
+  g_arena->execute([&] {
+    tbb::parallel_for(
+        Index{0}, chunks, [&](Index chunk) { function(context, chunk); }, tbb::simple_partitioner());
+  });
+}
+}  // namespace detail
+
+}  // namespace soft_tissue

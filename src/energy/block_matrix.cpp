@@ -1,0 +1,57 @@
+#include "soft_tissue_sim/energy/block_matrix.h"
+
+#include <algorithm>
+#include <string>
+
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue
+{
+BlockMatrix::BlockMatrix(const Adjacency& neighbours)
+{
+  const Index rows = neighbours.size();
+  offsets_.reserve(rows + 1);
+  columns_.reserve(neighbours.items.size() + rows);
+  diagonal_.reserve(rows);
+  offsets_.push_back(0);
+  for (Index row = 0; row < rows; ++row)
+  {
+    const Index* after = std::lower_bound(neighbours.begin(row), neighbours.end(row), row);
+    columns_.insert(columns_.end(), neighbours.begin(row), after);
+    diagonal_.push_back(static_cast<Index>(columns_.size()));
+    columns_.push_back(row);
+    columns_.insert(columns_.end(), after, neighbours.end(row));
+    offsets_.push_back(static_cast<Index>(columns_.size()));
+  }
+  values_.assign(9 * columns_.size() + 3, 0.0);
+}
+
+void BlockMatrix::setZero()
+{
+  std::fill(values_.begin(), values_.end(), 0.0);
+}
+
+Index BlockMatrix::find(Index row, Index column) const
+{
+  const auto begin = columns_.begin() + offsets_[row];
+  const auto end = columns_.begin() + offsets_[row + 1];
+  const auto found = std::lower_bound(begin, end, column);
+  return found != end && *found == column ? static_cast<Index>(found - columns_.begin()) : -1;
+}
+
+void BlockMatrix::add(Index row, Index column, const Mat3& b)
+{
+  const Index position = find(row, column);
+  if (position < 0)
+  {
+    throw Error("block (" + std::to_string(row) + ", " + std::to_string(column) +
+                ") is not in the matrix's pattern");
+  }
+  double* values = block(position);
+  for (int k = 0; k < 9; ++k)
+  {
+    values[k] += b.data()[k];
+  }
+}
+
+}  // namespace soft_tissue
