@@ -1,0 +1,54 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <ros/time.h>
+#include <soft_tissue_sim/SimStats.h>
+#include <soft_tissue_sim/TissueField.h>
+#include <soft_tissue_sim/TissueMesh.h>
+#include <soft_tissue_sim/TissueState.h>
+#include <soft_tissue_sim/ToolContacts.h>
+
+#include <string>
+#include <vector>
+
+#include "soft_tissue_sim/scene/scene.h"
+
+namespace soft_tissue_sim
+{
+/** A scene's unchanging part as messages need it: names, rest meshes, topology ids. */
+struct SceneInfo
+{
+  explicit SceneInfo(const soft_tissue::Scene& scene);
+
+  std::vector<soft_tissue::TissueInfo> tissues;
+  std::vector<soft_tissue::ToolInfo> tools;
+  std::vector<std::string> tissue_names;
+  std::vector<std::uint64_t> topology_ids;  ///< per tissue: hash of node count and tets
+};
+
+/** Where and when a message's content holds. */
+struct Stamp
+{
+  ros::Time time;
+  std::string world_frame;
+};
+
+TissueMesh meshMessage(const SceneInfo& info, std::size_t tissue, const Stamp& stamp);
+TissueState stateMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,
+                         std::size_t tissue, const Stamp& stamp);
+TissueField fieldMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,
+                         std::size_t tissue, const Stamp& stamp);
+geometry_msgs::PoseStamped toolPoseMessage(const soft_tissue::ToolState& tool, const Stamp& stamp);
+/** Force of tissue on the tool, about the tool frame's origin, in tool axes; frame_id is the tool. */
+geometry_msgs::WrenchStamped bodyWrenchMessage(const soft_tissue::ToolState& tool,
+                                               const std::string& tool_name, const Stamp& stamp);
+/** Force of tissue on the tool, about the tool frame's origin, in world axes; frame_id is the world. */
+geometry_msgs::WrenchStamped spatialWrenchMessage(const soft_tissue::ToolState& tool,
+                                                  const Stamp& stamp);
+ToolContacts contactsMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,
+                             std::size_t tool, const Stamp& stamp);
+SimStats statsMessage(const soft_tissue::Snapshot& snapshot, double real_time_factor,
+                      const Stamp& stamp);
+
+}  // namespace soft_tissue_sim

@@ -1,0 +1,37 @@
+#include "soft_tissue_sim/node/scene_loader.h"
+
+#include <filesystem>
+
+#include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/node/package_resolver.h"
+#include "soft_tissue_sim/node/scratch_folder.h"
+#include "soft_tissue_sim/node/urdf_shapes.h"
+
+namespace soft_tissue_sim
+{
+soft_tissue::Scene loadScene(const std::string& path)
+{
+  soft_tissue::SceneConfig config = soft_tissue::loadSceneConfig(path, &findPackage);
+  const ScratchFolder scratch;
+  for (soft_tissue::ToolConfig& tool : config.tools)
+  {
+    if (!tool.urdf)
+    {
+      continue;
+    }
+    try
+    {
+      const std::string folder = scratch.path() + "/" + tool.name;
+      std::filesystem::create_directories(folder);
+      tool.shapes = shapesFromUrdf(*tool.urdf, folder);
+    }
+    catch (const soft_tissue::Error& error)
+    {
+      throw soft_tissue::Error("scene " + path + ": tool '" + tool.name + "': " + error.what());
+    }
+    tool.urdf.reset();
+  }
+  return soft_tissue::Scene(config);
+}
+
+}  // namespace soft_tissue_sim
