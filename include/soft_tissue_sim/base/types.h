@@ -3,8 +3,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <cstdint>
 #include <vector>
+
+#include "soft_tissue_sim/base/index.h"
 
 namespace soft_tissue
 {
@@ -13,9 +14,6 @@ using Mat3 = Eigen::Matrix3d;
 
 /** Rigid transform X_AB: maps coordinates in frame B to coordinates in frame A. */
 using Pose = Eigen::Isometry3d;
-
-/** Index of a node, tetrahedron or triangle; -1 means "none". */
-using Index = std::int32_t;
 
 /** N points, each 3 x 1, in metres. */
 using Points = std::vector<Vec3>;

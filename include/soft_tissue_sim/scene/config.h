@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/base/types.h"
+#include "soft_tissue_sim/energy/material.h"
 
 /**
  * A scene as its file names it, checked and in SI units, before anything is built from it.
@@ -26,12 +27,6 @@ struct MeshConfig
 {
   std::string file;  ///< absolute path, package:// and relative names already resolved
   double metres_per_unit = 1.0;
-};
-
-enum class MaterialModel
-{
-  neo_hookean,
-  corotated,
 };
 
 struct MaterialConfig

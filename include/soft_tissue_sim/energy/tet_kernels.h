@@ -1,0 +1,57 @@
+#pragma once
+
+#include "soft_tissue_sim/base/cpu.h"
+#include "soft_tissue_sim/base/index.h"
+#include "soft_tissue_sim/energy/material.h"
+
+namespace soft_tissue
+{
+/** Tets are stored in groups of eight, lane by lane, whatever the instruction set: the layout is part of the bits. */
+constexpr Index kTetLanes = 8;
+
+/** Constants a law needs per tet, made from E and nu once. */
+constexpr int kMaterialConstants = 4;
+
+/** Blocks of a tet's stiffness in storage: 4 diagonal ones of 6 (lower triangle by columns), 6 others of 9. */
+constexpr Index kTetStiffnessSize = 4 * 6 + 6 * 9;
+
+/** Place of diagonal block a in a tet's stiffness: (0,0) (1,0) (2,0) (1,1) (2,1) (2,2). */
+constexpr Index diagonalBlockOffset(int a)
+{
+  return 6 * a;
+}
+
+/** Place of block (a, b), a < b, in a tet's stiffness: nine values by columns. */
+constexpr Index offDiagonalBlockOffset(int a, int b)
+{
+  return 24 + 9 * (a == 0 ? b - 1 : a == 1 ? b + 1 : 5);
+}
+
+/** Constant data of groups of tets; arrays hold all groups in a row. */
+struct TetGroups
+{
+  const Index* nodes;       ///< [group][4][8]
+  const double* gradients;  ///< [group][3][3][8]: rows of the inverse rest edge matrix, 1/m
+  const double* volumes;    ///< [group][8], m^3; 0 in unused lanes
+  const double* constants;  ///< [group][kMaterialConstants][8]
+};
+
+/** Element loops of one material for one instruction set; x is flat, 3 per node, m. */
+struct TetKernels
+{
+  /** Constants of the law from E (Pa) and nu. */
+  void (*constants)(double young_modulus, double poisson_ratio, double* constants);
+  /** energies[group][8], J. */
+  void (*energy)(const TetGroups&, Index begin, Index end, const double* x, double* energies);
+  /** gradients[tet][12], N. */
+  void (*gradient)(const TetGroups&, Index begin, Index end, const double* x, double* gradients);
+  /** stiffness[tet][kTetStiffnessSize], N/m, projected positive semi-definite. */
+  void (*stiffness)(const TetGroups&, Index begin, Index end, const double* x, double* stiffness);
+  /** det_f[group][8] and, unless null, von_mises[group][8] in Pa. */
+  void (*state)(const TetGroups&, Index begin, Index end, const double* x, double* det_f, double* von_mises);
+};
+
+/** The loops for a material on this machine. */
+const TetKernels& tetKernels(MaterialModel model, InstructionSet set);
+
+}  // namespace soft_tissue

@@ -1,0 +1,102 @@
+/**
+ * A few doubles worked on at once, as GCC vectors. Included by kernel files only, inside their own namespace
+ * (SOFT_TISSUE_KERNELS, SOFT_TISSUE_LANES): every function here exists once per instruction set.
+ */
+#pragma once
+
+#include <cstring>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace soft_tissue
+{
+namespace SOFT_TISSUE_KERNELS
+{
+constexpr int kLanes = SOFT_TISSUE_LANES;
+
+typedef double Pack __attribute__((vector_size(8 * SOFT_TISSUE_LANES)));
+typedef long long Mask __attribute__((vector_size(8 * SOFT_TISSUE_LANES)));
+
+inline Pack load(const double* p)
+{
+  Pack v;
+  std::memcpy(&v, p, sizeof(Pack));
+  return v;
+}
+
+inline void store(double* p, Pack v)
+{
+  std::memcpy(p, &v, sizeof(Pack));
+}
+
+inline Pack splat(double a)
+{
+  return a - Pack{};
+}
+
+inline Pack max(Pack a, Pack b)
+{
+  return a > b ? a : b;
+}
+
+inline Pack abs(Pack a)
+{
+  return a < 0.0 ? -a : a;
+}
+
+inline Pack sqrt(Pack a)
+{
+#if SOFT_TISSUE_LANES == 8 && defined(__AVX512F__)
+  return reinterpret_cast<Pack>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(a)));
+#elif SOFT_TISSUE_LANES == 4 && defined(__AVX__)
+  return reinterpret_cast<Pack>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a)));
+#elif SOFT_TISSUE_LANES == 2 && defined(__SSE2__)
+  return reinterpret_cast<Pack>(_mm_sqrt_pd(reinterpret_cast<__m128d>(a)));
+#else
+  for (int lane = 0; lane < kLanes; ++lane)
+  {
+    a[lane] = __builtin_sqrt(a[lane]);
+  }
+  return a;
+#endif
+}
+
+inline bool any(Mask m)
+{
+  long long bits = 0;
+  for (int lane = 0; lane < kLanes; ++lane)
+  {
+    bits |= m[lane];
+  }
+  return bits != 0;
+}
+
+/** Natural logarithm of positive finite numbers, to about one unit in the last place. */
+inline Pack log(Pack a)
+{
+  // a = m 2^e with m in [1/sqrt(2), sqrt(2)); log m = 2 atanh(s), s = (m - 1) / (m + 1), by its series.
+  Mask bits = reinterpret_cast<Mask>(a);
+  Mask exponent = ((bits >> 52) & 0x7ff) - 1023;
+  bits = (bits & 0x000fffffffffffffLL) | 0x3ff0000000000000LL;
+  Pack m = reinterpret_cast<Pack>(bits);
+  const Mask large = m > 1.4142135623730951;
+  m = large ? 0.5 * m : m;
+  exponent -= large;
+  Pack e;
+  for (int lane = 0; lane < kLanes; ++lane)
+  {
+    e[lane] = static_cast<double>(exponent[lane]);
+  }
+  const Pack s = (m - 1.0) / (m + 1.0);
+  const Pack z = s * s;
+  Pack sum = splat(1.0 / 23.0);
+  for (int k = 21; k >= 1; k -= 2)
+  {
+    sum = sum * z + 1.0 / k;
+  }
+  return e * 0.6931471805599453 + 2.0 * s * sum;
+}
+
+}  // namespace SOFT_TISSUE_KERNELS
+}  // namespace soft_tissue
