@@ -48,7 +48,7 @@ inline Pack abs(Pack a)
 inline Pack sqrt(Pack a)
 {
 #if SOFT_TISSUE_LANES == 8 && defined(__AVX512F__)
-  return reinterpret_cast<Pack>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(a)));
+  return reinterpret_cast<Pack>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(a)));
 #elif SOFT_TISSUE_LANES == 4 && defined(__AVX__)
   return reinterpret_cast<Pack>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a)));
 #elif SOFT_TISSUE_LANES == 2 && defined(__SSE2__)

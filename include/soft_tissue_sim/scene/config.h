@@ -8,6 +8,7 @@
 
 #include "soft_tissue_sim/base/types.h"
 #include "soft_tissue_sim/energy/material.h"
+#include "soft_tissue_sim/solver/linear_solver.h"
 
 /**
  * A scene as its file names it, checked and in SI units, before anything is built from it.
@@ -140,7 +141,7 @@ struct PoseSourceConfig
   };
   Kind kind = Kind::topic;
   std::vector<PoseKeyframe> keyframes;  ///< ascending times; linear / slerp between, held outside
-  std::string name;                     ///< topic below the tool's namespace, or tf frame
+  std::string name = "servo_cp";        ///< topic below the tool's namespace, or tf frame
 };
 
 struct ToolConfig
@@ -173,13 +174,6 @@ enum class Stepper
   quasi_static,
 };
 
-enum class LinearSolverKind
-{
-  automatic,
-  pcg,
-  cholesky,
-};
-
 struct SolverConfig
 {
   Stepper stepper = Stepper::implicit_euler;
@@ -196,6 +190,8 @@ struct OutputsConfig
 struct SceneConfig
 {
   std::string file;  ///< where it came from, for messages
+  /** Where material presets are looked up: the name in the package, or the path a scene names. */
+  std::string materials = "package://soft_tissue_sim/config/materials.yaml";
   double time_step_s = 0.005;
   Vec3 gravity_m_per_s2 = Vec3(0.0, 0.0, -9.81);
   SolverConfig solver;
@@ -205,7 +201,7 @@ struct SceneConfig
   OutputsConfig outputs;
 };
 
-/** Turns "package://name/rest" into a path; the node layer gives one that asks rospack. */
+/** Folder of a package, or empty when there is none; the node layer gives one that asks rospack. */
 using PackageResolver = std::string (*)(const std::string& package);
 
 /**
@@ -215,5 +211,8 @@ using PackageResolver = std::string (*)(const std::string& package);
  * @throws Error naming file, key, value and allowed range
  */
 SceneConfig loadSceneConfig(const std::string& path, PackageResolver resolver);
+
+/** Markdown of all keys a scene file and a materials file may have: the text of docs/scene.md. */
+std::string describeSchema();
 
 }  // namespace soft_tissue

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "soft_tissue_sim/energy/term.h"
+#include "soft_tissue_sim/mesh/tet_mesh.h"
+
+namespace soft_tissue
+{
+/** Adds a quarter of each tet's mass to its nodes: masses[first_node + i] += ..., kg. densities: one per tet, kg/m^3. */
+void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, Index first_node,
+                     std::vector<double>& masses);
+
+/** 1/(2 h^2) |x - target|^2 in the lumped mass: what makes implicit Euler a minimisation. */
+class Inertia : public EnergyTerm
+{
+ public:
+  /** @param masses N, kg; must outlive the term */
+  explicit Inertia(const std::vector<double>& masses) : masses_(masses) {}
+
+  /** Target positions x + h v (N x 3, m) and h (s) of the step that begins. */
+  void beginStep(const Points& x, const Points& velocities, double step);
+
+  const Points& target() const { return target_; }
+
+  double value(const Points& x) override;
+  void addGradient(const Points& x, Points& gradient) override;
+  void addHessian(const Points& x, BlockMatrix& hessian) override;
+
+ private:
+  const std::vector<double>& masses_;
+  Points target_;
+  double inverse_square_step_ = 0.0;
+};
+
+/** -sum m g . x. */
+class Gravity : public EnergyTerm
+{
+ public:
+  /** @param masses N, kg; must outlive the term  @param acceleration m/s^2, world */
+  Gravity(const std::vector<double>& masses, const Vec3& acceleration)
+    : masses_(masses), acceleration_(acceleration)
+  {
+  }
+
+  double value(const Points& x) override;
+  void addGradient(const Points& x, Points& gradient) override;
+  void addHessian(const Points&, BlockMatrix&) override {}
+
+ private:
+  const std::vector<double>& masses_;
+  Vec3 acceleration_;
+};
+
+/** Dead loads: -sum f . x, f constant in the world. */
+class NodalLoads : public EnergyTerm
+{
+ public:
+  /** @param forces N x 3, N */
+  explicit NodalLoads(Points forces) : forces_(std::move(forces)) {}
+
+  double value(const Points& x) override;
+  void addGradient(const Points& x, Points& gradient) override;
+  void addHessian(const Points&, BlockMatrix&) override {}
+
+ private:
+  Points forces_;
+};
+
+}  // namespace soft_tissue

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "soft_tissue_sim/energy/block_matrix.h"
+
+namespace soft_tissue
+{
+enum class LinearSolverKind
+{
+  automatic,  ///< cholesky for small static problems, pcg otherwise
+  pcg,        ///< conjugate gradients, preconditioned by the inverse diagonal blocks
+  cholesky,   ///< sparse LDL^T, its symbolic part kept from step to step
+};
+
+/** Solves A d = b for symmetric positive definite A of 3 x 3 blocks. */
+class LinearSolver
+{
+ public:
+  virtual ~LinearSolver() = default;
+
+  /**
+   * @param tolerance  stop when |b - A d| <= tolerance |b|; direct solvers ignore it
+   * @param d          out, N x 3
+   * @return iterations done
+   */
+  virtual int solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) = 0;
+};
+
+std::unique_ptr<LinearSolver> makePcg();
+std::unique_ptr<LinearSolver> makeCholesky();
+
+}  // namespace soft_tissue

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "soft_tissue_sim/energy/term.h"
+#include "soft_tissue_sim/solver/linear_solver.h"
+
+namespace soft_tissue
+{
+struct NewtonOptions
+{
+  /** Stop when |sum of forces| <= tolerance * sum of the norms of the terms' forces, free nodes only. */
+  double tolerance = 1e-3;
+  int max_iterations = 20;
+};
+
+struct NewtonReport
+{
+  int iterations = 0;
+  int linear_iterations = 0;
+  double residual = 0.0;   ///< relative, as in NewtonOptions::tolerance
+  bool converged = false;
+  bool finite = true;      ///< false: forces or energy overflowed; x is then the last finite iterate
+  double linear_s = 0.0;   ///< wall time in linear solves
+};
+
+/** Minimises a sum of energy terms over the free nodes by Newton's method with line search. */
+class NewtonSolver
+{
+ public:
+  /**
+   * @param neighbours  coupled nodes, all bodies
+   * @param fixed       nodes that keep their position
+   */
+  NewtonSolver(const Adjacency& neighbours, const std::vector<Index>& fixed,
+               std::unique_ptr<LinearSolver> linear);
+
+  /**
+   * Moves x down the potential until the forces balance.
+   * @param terms      what is minimised
+   * @param x          in: start, out: minimiser; never non-finite
+   * @param seconds    per term: wall time spent in it is added
+   */
+  NewtonReport minimise(const std::vector<EnergyTerm*>& terms, const NewtonOptions& options, Points& x,
+                        std::vector<double>& seconds);
+
+ private:
+  struct Potential
+  {
+    double value = 0.0;
+    double magnitude = 0.0;  ///< sum of the terms' absolute values: the scale of rounding errors
+  };
+  Potential evaluate(const std::vector<EnergyTerm*>& terms, const Points& x, std::vector<double>& seconds);
+  double gradient(const std::vector<EnergyTerm*>& terms, const Points& x, std::vector<double>& seconds);
+  void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, std::vector<double>& seconds);
+
+  std::vector<Index> fixed_;
+  std::vector<Index> fixed_blocks_;  ///< blocks in a row or column of a fixed node
+  BlockMatrix hessian_;
+  std::unique_ptr<LinearSolver> linear_;
+  Points gradient_, term_gradient_, descent_, direction_, trial_;
+};
+
+}  // namespace soft_tissue

@@ -1,0 +1,109 @@
+#include "soft_tissue_sim/energy/mass_terms.h"
+
+#include "soft_tissue_sim/base/parallel.h"
+
+namespace soft_tissue
+{
+namespace
+{
+constexpr Index kGrain = 512;
+}
+
+void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, Index first_node,
+                     std::vector<double>& masses)
+{
+  for (std::size_t t = 0; t < rest.tets.size(); ++t)
+  {
+    const Tet& tet = rest.tets[t];
+    const double volume = signedVolume6(rest.nodes[tet[0]], rest.nodes[tet[1]], rest.nodes[tet[2]],
+                                        rest.nodes[tet[3]]) /
+                          6.0;
+    for (const Index node : tet)
+    {
+      masses[first_node + node] += 0.25 * volume * densities[t];
+    }
+  }
+}
+
+void Inertia::beginStep(const Points& x, const Points& velocities, double step)
+{
+  target_.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    target_[i] = x[i] + step * velocities[i];
+  }
+  inverse_square_step_ = 1.0 / (step * step);
+}
+
+double Inertia::value(const Points& x)
+{
+  return 0.5 * inverse_square_step_ *
+         parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
+           double sum = 0.0;
+           for (Index i = begin; i < end; ++i)
+           {
+             sum += masses_[i] * (x[i] - target_[i]).squaredNorm();
+           }
+           return sum;
+         });
+}
+
+void Inertia::addGradient(const Points& x, Points& gradient)
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    gradient[i] += inverse_square_step_ * masses_[i] * (x[i] - target_[i]);
+  }
+}
+
+void Inertia::addHessian(const Points& x, BlockMatrix& hessian)
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    double* block = hessian.block(hessian.diagonal(static_cast<Index>(i)));
+    const double stiffness = inverse_square_step_ * masses_[i];
+    block[0] += stiffness;
+    block[4] += stiffness;
+    block[8] += stiffness;
+  }
+}
+
+double Gravity::value(const Points& x)
+{
+  return -parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
+    double sum = 0.0;
+    for (Index i = begin; i < end; ++i)
+    {
+      sum += masses_[i] * acceleration_.dot(x[i]);
+    }
+    return sum;
+  });
+}
+
+void Gravity::addGradient(const Points& x, Points& gradient)
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    gradient[i] -= masses_[i] * acceleration_;
+  }
+}
+
+double NodalLoads::value(const Points& x)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    sum -= forces_[i].dot(x[i]);
+  }
+  return sum;
+}
+
+void NodalLoads::addGradient(const Points& x, Points& gradient)
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    gradient[i] -= forces_[i];
+  }
+}
+
+}  // namespace soft_tissue

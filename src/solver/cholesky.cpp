@@ -1,0 +1,88 @@
+#include <Eigen/SparseCholesky>
+
+#include "soft_tissue_sim/solver/linear_solver.h"
+
+namespace soft_tissue
+{
+namespace
+{
+class Cholesky : public LinearSolver
+{
+ public:
+  int solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
+  {
+    if (matrix_.rows() != 3 * a.rows() || blocks_ != a.columns().size())
+    {
+      analyse(a);
+    }
+    fill(a);
+    factor_.factorize(matrix_);
+    if (factor_.info() != Eigen::Success)
+    {
+      return iterative_->solve(a, b, tolerance, d);
+    }
+    const Eigen::Map<const Eigen::VectorXd> right(b.data()->data(), 3 * a.rows());
+    d.resize(b.size());
+    Eigen::Map<Eigen::VectorXd>(d.data()->data(), 3 * a.rows()) = factor_.solve(right);
+    return 1;
+  }
+
+ private:
+  /** Pattern of the lower triangle: column 3j + k holds rows 3i + l >= 3j + k of blocks i >= j. */
+  void analyse(const BlockMatrix& a)
+  {
+    const Index rows = a.rows();
+    blocks_ = a.columns().size();
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index j = 0; j < rows; ++j)
+    {
+      for (Index k = a.diagonal(j); k < a.offsets()[j + 1]; ++k)
+      {
+        const Index i = a.columns()[k];
+        for (int column = 0; column < 3; ++column)
+        {
+          for (int row = i == j ? column : 0; row < 3; ++row)
+          {
+            entries.emplace_back(3 * i + row, 3 * j + column, 0.0);
+          }
+        }
+      }
+    }
+    matrix_.resize(3 * rows, 3 * rows);
+    matrix_.setFromTriplets(entries.begin(), entries.end());
+    factor_.analyzePattern(matrix_);
+  }
+
+  void fill(const BlockMatrix& a)
+  {
+    double* value = matrix_.valuePtr();
+    for (Index j = 0; j < a.rows(); ++j)
+    {
+      for (int column = 0; column < 3; ++column)
+      {
+        for (Index k = a.diagonal(j); k < a.offsets()[j + 1]; ++k)
+        {
+          // Block (i, j) below the diagonal is the transpose of the stored block (j, i).
+          const double* block = a.block(k);
+          for (int row = k == a.diagonal(j) ? column : 0; row < 3; ++row)
+          {
+            *value++ = block[3 * row + column];
+          }
+        }
+      }
+    }
+  }
+
+  std::size_t blocks_ = 0;
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor_;
+  std::unique_ptr<LinearSolver> iterative_ = makePcg();
+};
+}  // namespace
+
+std::unique_ptr<LinearSolver> makeCholesky()
+{
+  return std::make_unique<Cholesky>();
+}
+
+}  // namespace soft_tissue
