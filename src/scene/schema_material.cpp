@@ -1,0 +1,115 @@
+#include <algorithm>
+
+#include "schema_sections.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** A material as written: what is left out comes from the preset. */
+struct MaterialKeys
+{
+  std::optional<MaterialModel> model;
+  std::optional<std::string> preset;
+  std::optional<double> young_modulus_pa;
+  std::optional<double> poisson_ratio;
+  std::optional<double> density_kg_per_m3;
+};
+
+template <class V>
+Kind<std::optional<V>> orPreset(const Kind<V>& kind)
+{
+  return maybe(kind, "the preset's", false);
+}
+
+const Section<MaterialKeys>& materialSection()
+{
+  static const Section<MaterialKeys> section =
+      Section<MaterialKeys>("material",
+                            "A preset, or `young_modulus_pa`, `poisson_ratio` and "
+                            "`density_kg_per_m3` in its place. Values that stand beside a preset "
+                            "replace the preset's.")
+          .optional(
+              "model", &MaterialKeys::model,
+              maybe(materialModel(),
+                    "the preset's, else " + materialModel().show(MaterialConfig{}.model), false),
+              "Strain energy.")
+          .optional("preset", &MaterialKeys::preset, maybe(text(), "none", false),
+                    "Name of an entry of the materials file.")
+          .optional("young_modulus_pa", &MaterialKeys::young_modulus_pa, orPreset(youngModulus()),
+                    "Young's modulus at small strain.")
+          .optional("poisson_ratio", &MaterialKeys::poisson_ratio, orPreset(poissonRatio()),
+                    "Poisson's ratio at small strain.")
+          .optional("density_kg_per_m3", &MaterialKeys::density_kg_per_m3, orPreset(density()),
+                    "Density at rest.");
+  return section;
+}
+
+MaterialConfig findPreset(const Item& item)
+{
+  const Item scene(item.document());
+  const std::string file =
+      scene.has("materials") ? scene.at("materials").scalar() : SceneConfig{}.materials;
+  std::vector<std::string> known;
+  for (const PresetConfig& preset : loadPresets(item, file))
+  {
+    if (preset.name == item.scalar())
+    {
+      return preset.material;
+    }
+    known.push_back(preset.name);
+  }
+  item.rejectValue("must be one of " + joined(known) + " (presets of " + file + ")");
+}
+
+MaterialConfig complete(const Item& item, const MaterialKeys& keys)
+{
+  MaterialConfig material;
+  if (keys.preset)
+  {
+    material = findPreset(item.at("preset"));
+  }
+  for (const char* key : {"young_modulus_pa", "poisson_ratio", "density_kg_per_m3"})
+  {
+    if (!keys.preset && !item.has(key))
+    {
+      item.rejectKey(key, "missing, must be given where there is no preset");
+    }
+  }
+  material.model = keys.model.value_or(material.model);
+  material.young_modulus_pa = keys.young_modulus_pa.value_or(material.young_modulus_pa);
+  material.poisson_ratio = keys.poisson_ratio.value_or(material.poisson_ratio);
+  material.density_kg_per_m3 = keys.density_kg_per_m3.value_or(material.density_kg_per_m3);
+  return material;
+}
+
+}  // namespace
+
+Kind<MaterialModel> materialModel()
+{
+  return choice<MaterialModel>(
+      {{"neo_hookean", MaterialModel::neo_hookean}, {"corotated", MaterialModel::corotated}},
+      {"linear", "st_venant_kirchhoff"});
+}
+
+Kind<double> youngModulus()
+{
+  return number(0.0, 1e12, Ends::open_below);
+}
+
+Kind<double> poissonRatio()
+{
+  return number(-1.0, 0.5, Ends::open);
+}
+
+Kind<double> density()
+{
+  return number(0.0, 1e5, Ends::open_below);
+}
+
+Kind<MaterialConfig> material()
+{
+  return madeFrom(mapOf(materialSection()), complete);
+}
+
+}  // namespace soft_tissue

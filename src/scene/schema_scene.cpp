@@ -1,0 +1,94 @@
+#include "schema_sections.h"
+
+namespace soft_tissue
+{
+/** In config_check.cpp: names that clash, contacts that name nothing. */
+void checkScene(const Item& item, SceneConfig& scene);
+
+namespace
+{
+const Section<SolverConfig>& solverSection()
+{
+  static const Section<SolverConfig> section =
+      Section<SolverConfig>("solver", "How a step is solved.")
+          .optional("stepper", &SolverConfig::stepper,
+                    choice<Stepper>({{"implicit_euler", Stepper::implicit_euler},
+                                     {"quasi_static", Stepper::quasi_static}},
+                                    {"bdf2"}),
+                    "implicit_euler: with inertia; quasi_static: equilibrium at each step.")
+          .optional("tolerance", &SolverConfig::tolerance, number(0.0, 0.1, Ends::open_below),
+                    "Residual at which Newton's method stops, over the sum of the norms of the "
+                    "acting forces.")
+          .optional("max_iterations", &SolverConfig::max_iterations, integer(1, 1000),
+                    "Newton iterations a step may take.")
+          .optional("linear", &SolverConfig::linear,
+                    choice<LinearSolverKind>({{"auto", LinearSolverKind::automatic},
+                                              {"pcg", LinearSolverKind::pcg},
+                                              {"cholesky", LinearSolverKind::cholesky}},
+                                             {"multigrid"}),
+                    "Solver of the linear systems.")
+          .notAvailable("budget_ms", "Wall time a step may take.");
+  return section;
+}
+
+void setPair(ContactConfig& contact, const std::pair<std::string, std::string>& names)
+{
+  contact.tissue = names.first;
+  contact.tool = names.second;
+}
+
+const Section<OutputsConfig>& outputsSection()
+{
+  static const Section<OutputsConfig> section =
+      Section<OutputsConfig>("outputs", "What is computed only to be looked at.")
+          .optional("stress", &OutputsConfig::stress, boolean(), "Von Mises stress of each tet.")
+          .notAvailable("octomap", "The tissues as occupancy.");
+  return section;
+}
+
+}  // namespace
+
+const Section<ContactConfig>& contactSection()
+{
+  static const Section<ContactConfig> section =
+      Section<ContactConfig>("contact", "A pair that may touch; pairs not named pass through.")
+          .required("between", setPair, namePair(), "Who touches whom; each pair once.")
+          .optional("response", &ContactConfig::response,
+                    choice<Response>({{"point", Response::point}, {"segment", Response::segment}},
+                                     {"auto"}),
+                    "Where contact pressure is integrated: at surface nodes, or along surface "
+                    "edges.")
+          .optional("stiffness_pa_per_m", &ContactConfig::stiffness_pa_per_m,
+                    maybe(number(1.0, 1e15, Ends::closed), "auto", true),
+                    "Contact pressure per depth; auto: from the tissue's stiffness and size.")
+          .optional("friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
+                    "Coulomb coefficient.")
+          .notAvailable("max_penetration_m", "Depth that must not be exceeded.");
+  return section;
+}
+
+const Section<SceneConfig>& sceneSection()
+{
+  static const Section<SceneConfig> section =
+      Section<SceneConfig>("scene file", "What a scene does not name does not exist.")
+          .optional("time_step_s", &SceneConfig::time_step_s, number(0.0, 1.0, Ends::open_below),
+                    "Simulated time of one step.")
+          .optional("gravity_m_per_s2", &SceneConfig::gravity_m_per_s2, vectorOfNorm(1000.0),
+                    "Gravity in the world frame.")
+          .optional("materials", &SceneConfig::materials, file(),
+                    "Materials file the presets are looked up in.")
+          .optional("solver", &SceneConfig::solver, mapOf(solverSection()), "How a step is solved.")
+          .required("tissues", &SceneConfig::tissues, listOf(mapOf(tissueSection()), 1),
+                    "Soft bodies.")
+          .optional("tools", &SceneConfig::tools, listOf(mapOf(toolSection())), "Rigid tools.")
+          .optional("contacts", &SceneConfig::contacts, listOf(mapOf(contactSection())),
+                    "Pairs that may touch.")
+          .optional("outputs", &SceneConfig::outputs, mapOf(outputsSection()),
+                    "What is computed only to be looked at.")
+          .notAvailable("membranes", "Thin soft bodies.")
+          .notAvailable("obstacles", "OctoMap obstacles.")
+          .finally(checkScene);
+  return section;
+}
+
+}  // namespace soft_tissue

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "schema_section.h"
+
+/**
+ * The sections of a scene file and of a materials file: every key with its type, range and meaning.
+ * They are the only place that knows the keys; parsing and docs/scene.md both follow them.
+ */
+namespace soft_tissue
+{
+/** A named material with where its numbers come from. */
+struct PresetConfig
+{
+  std::string name;
+  MaterialConfig material;
+  std::pair<double, double> young_modulus_range_pa;
+  std::string young_modulus_source;
+  std::string poisson_ratio_source;
+  std::pair<double, double> density_range_kg_per_m3;
+  std::string density_source;
+};
+
+/** A materials file. */
+struct PresetsConfig
+{
+  std::vector<PresetConfig> presets;
+};
+
+/** What a tool's shape may be: a solid, or a link of a URDF. */
+struct ToolShapeConfig
+{
+  ShapeConfig solid;
+  std::optional<UrdfShapeConfig> urdf;
+};
+
+const Section<SceneConfig>& sceneSection();
+const Section<TissueConfig>& tissueSection();
+const Section<ToolConfig>& toolSection();
+const Section<ToolShapeConfig>& toolShapeSection();
+const Section<PoseSourceConfig>& poseSourceSection();
+const Section<ContactConfig>& contactSection();
+const Section<PoseConfig>& poseSection();
+const Section<PresetsConfig>& presetsSection();
+
+/** The ranges material constants must lie in, wherever they stand. */
+Kind<MaterialModel> materialModel();
+Kind<double> youngModulus();
+Kind<double> poissonRatio();
+Kind<double> density();
+
+/** A material as a tissue names it: a preset, explicit values, or a preset with some replaced. */
+Kind<MaterialConfig> material();
+
+/** Presets of the materials file `name`, which stands at or holds for `item`. */
+std::vector<PresetConfig> loadPresets(const Item& item, const std::string& name);
+
+/** Metres in one unit of a mesh file. */
+Kind<double> lengthUnit();
+
+/** Ranges that several sections share. */
+Kind<Vec3> position();
+Kind<Vec3> rotation();
+Kind<double> shapeLength();
+
+}  // namespace soft_tissue

@@ -1,0 +1,113 @@
+#include "schema_sections.h"
+
+namespace soft_tissue
+{
+namespace
+{
+const Section<MeshConfig>& meshSection()
+{
+  static const Section<MeshConfig> section =
+      Section<MeshConfig>("mesh", "A tetrahedral mesh file.")
+          .required("file", &MeshConfig::file, file(),
+                    "Gmsh, VTK, TetGen, Medit or PLY. Relative paths start at the scene file.")
+          .required("length_unit", &MeshConfig::metres_per_unit, lengthUnit(),
+                    "Unit of the coordinates in the file.");
+  return section;
+}
+
+const Section<RegionConfig>& regionSection()
+{
+  static const Section<RegionConfig> section =
+      Section<RegionConfig>("region",
+                            "Tets with a tag of the mesh file, and what is different in them.")
+          .required("tag", &RegionConfig::tag, integer(0, 2147483647),
+                    "Physical group or region number in the mesh file.")
+          .optional("young_modulus_pa", &RegionConfig::young_modulus_pa,
+                    maybe(youngModulus(), "the material's", false), "Young's modulus there.")
+          .optional("poisson_ratio", &RegionConfig::poisson_ratio,
+                    maybe(poissonRatio(), "the material's", false), "Poisson's ratio there.")
+          .optional("density_kg_per_m3", &RegionConfig::density_kg_per_m3,
+                    maybe(density(), "the material's", false), "Density there.")
+          .finally([](const Item& item, RegionConfig& region) {
+            if (!region.young_modulus_pa && !region.poisson_ratio && !region.density_kg_per_m3)
+            {
+              item.reject(
+                  "changes nothing, must have one of young_modulus_pa, poisson_ratio, "
+                  "density_kg_per_m3");
+            }
+          });
+  return section;
+}
+
+const Section<BoxConfig>& fixedSection()
+{
+  static const Section<BoxConfig> section =
+      Section<BoxConfig>("fixed", "Nodes that stay where they are at rest.")
+          .required(
+              "box_m", [](BoxConfig& b) -> BoxConfig& { return b; }, box(),
+              "All nodes in this box, borders included, along the world's axes.");
+  return section;
+}
+
+const Section<FieldConfig>& fieldSection()
+{
+  static const Section<FieldConfig> section =
+      Section<FieldConfig>("field", "The distance field inside a tissue, which contact reads.")
+          .optional(
+              "method", &FieldConfig::method,
+              choice<std::string>({{"cffm", "cffm"}}, {"grid", "cpfm", "exact", "exact_marching"}),
+              "How nodal depths are computed; cffm: marching closest features.")
+          .optional("depth", &FieldConfig::depth,
+                    choice<DepthKind>({{"interpolated", DepthKind::interpolated},
+                                       {"closest_feature", DepthKind::closest_feature}}),
+                    "Depth between the nodes: linear in the tet, or the true distance to the "
+                    "nearest boundary feature.")
+          .optional("refresh", &FieldConfig::refresh,
+                    choice<FieldRefresh>({{"carried", FieldRefresh::carried},
+                                          {"lazy", FieldRefresh::lazy},
+                                          {"full", FieldRefresh::full}}),
+                    "carried: depths of the rest state; lazy: marched each step as far as contacts "
+                    "read; full: marched each step everywhere.");
+  return section;
+}
+
+void checkRegions(const Item& item, TissueConfig& tissue)
+{
+  for (std::size_t i = 0; i < tissue.regions.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      if (tissue.regions[i].tag == tissue.regions[j].tag)
+      {
+        const Item tag = item.at("regions").at(i).at("tag");
+        tag.rejectValue("is the tag of regions[" + std::to_string(j) + "], must be new");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+const Section<TissueConfig>& tissueSection()
+{
+  static const Section<TissueConfig> section =
+      Section<TissueConfig>("tissue", "A soft body.")
+          .required("name", &TissueConfig::name, name(),
+                    "Its ROS namespace; unlike that of any other tissue or tool.")
+          .required("mesh", &TissueConfig::mesh, mapOf(meshSection()), "Its rest shape.")
+          .optional("pose", &TissueConfig::pose, mapOf(poseSection()),
+                    "Where the mesh file's frame stands in the world at rest.")
+          .required("material", &TissueConfig::material, material(), "What it is made of.")
+          .optional("regions", &TissueConfig::regions, listOf(mapOf(regionSection())),
+                    "Parts of other stiffness or density; each tag once.")
+          .optional("fixed", &TissueConfig::fixed, listOf(mapOf(fixedSection())),
+                    "Where it is held.")
+          .optional("field", &TissueConfig::field, mapOf(fieldSection()),
+                    "Its distance field; marched only if the tissue has a contact.")
+          .notAvailable("keyframes", "Nodes moved along key frames.")
+          .notAvailable("element", "Quadratic and locking-free elements.")
+          .finally(checkRegions);
+  return section;
+}
+
+}  // namespace soft_tissue
