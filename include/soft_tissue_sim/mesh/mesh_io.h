@@ -25,6 +25,14 @@ struct LoadedTetMesh
   LoadReport report;
 };
 
+/** Whatever a file holds: a volume, or a surface if it has no tet (then the volume is empty). */
+struct LoadedMesh
+{
+  TetMesh volume;
+  TriMesh surface;
+  LoadReport report;
+};
+
 /** A triangle mesh with the report of its reading. */
 struct LoadedTriMesh
 {
@@ -53,9 +61,19 @@ LoadedTetMesh loadTetMesh(const std::string& path, double metres_per_unit);
  */
 LoadedTriMesh loadTriMesh(const std::string& path, double metres_per_unit);
 
-/** Writes Gmsh 2.2 ASCII with 17 significant digits, in metres. @throws Error if the file can't be
- * written */
-void saveGmsh(const std::string& path, const TetMesh& mesh);
+/**
+ * Reads any file loadTetMesh() or loadTriMesh() can read.
+ * @param metres_per_unit  length of one file unit in metres, > 0
+ * @throws Error naming the file, the line or record, and the reason
+ */
+LoadedMesh loadMesh(const std::string& path, double metres_per_unit);
+
+/**
+ * Writes Gmsh 2.2 ASCII in metres, the tags as physical and elementary tags.
+ * @param digits  significant digits of the coordinates, 17 loses nothing
+ * @throws Error if the file can't be written
+ */
+void saveGmsh(const std::string& path, const TetMesh& mesh, int digits = 17);
 
 /** Writes binary STL in metres. @throws Error if the file can't be written */
 void saveStl(const std::string& path, const TriMesh& mesh);
