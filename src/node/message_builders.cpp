@@ -22,8 +22,8 @@ void appendFlat(std::vector<float>& flat, const soft_tissue::Points& points)
   flat.reserve(flat.size() + 3 * points.size());
   for (const Vec3& p : points)
   {
-    flat.insert(flat.end(), {static_cast<float>(p.x()), static_cast<float>(p.y()),
-                             static_cast<float>(p.z())});
+    flat.insert(flat.end(),
+                {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
   }
 }
 

@@ -11,7 +11,8 @@ std::string findPackage(const std::string& package)
   const std::string folder = ros::package::getPath(package);
   if (folder.empty())
   {
-    throw soft_tissue::Error("package '" + package + "' is not known to rospack (ROS_PACKAGE_PATH)");
+    throw soft_tissue::Error("package '" + package +
+                             "' is not known to rospack (ROS_PACKAGE_PATH)");
   }
   return folder;
 }

@@ -50,7 +50,8 @@ fs::path localPath(const std::string& uri, const std::string& folder)
   return fs::path(folder) / uri;  // an absolute uri replaces the folder
 }
 
-/** What is wrong with a path that does not exist: its first missing part and a name nearly alike. */
+/** What is wrong with a path that does not exist: its first missing part and a name nearly alike.
+ */
 std::string explainMissing(const fs::path& path)
 {
   fs::path existing;

@@ -63,7 +63,8 @@ PoseConfig poseConfig(const urdf::Pose& pose)
   return config;
 }
 
-MeshShape cylinderShape(const urdf::Cylinder& cylinder, const std::string& scratch, std::size_t number)
+MeshShape cylinderShape(const urdf::Cylinder& cylinder, const std::string& scratch,
+                        std::size_t number)
 {
   MeshShape shape;
   shape.mesh.file = scratch + "/cylinder_" + std::to_string(number) + ".stl";
@@ -78,15 +79,13 @@ ShapeGeometry shapeGeometry(const urdf::Geometry& geometry, const std::string& f
   {
     case urdf::Geometry::SPHERE:
       return SphereShape{static_cast<const urdf::Sphere&>(geometry).radius};
-    case urdf::Geometry::BOX:
-    {
+    case urdf::Geometry::BOX: {
       const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
       return BoxShape{Vec3(size.x, size.y, size.z)};
     }
     case urdf::Geometry::CYLINDER:
       return cylinderShape(static_cast<const urdf::Cylinder&>(geometry), scratch, number);
-    case urdf::Geometry::MESH:
-    {
+    case urdf::Geometry::MESH: {
       const urdf::Mesh& mesh = static_cast<const urdf::Mesh&>(geometry);
       MeshShape shape;
       shape.mesh.file = resolveResource(mesh.filename, folder);

@@ -24,6 +24,7 @@ soft_tissue::Pose poseFromMessage(const geometry_msgs::Transform& transform);
 geometry_msgs::Wrench spatialWrench(const soft_tissue::Wrench& wrench_W);
 
 /** The same force and moment about the same point, in the tool frame's axes. */
-geometry_msgs::Wrench bodyWrench(const soft_tissue::Wrench& wrench_W, const soft_tissue::Pose& X_WT);
+geometry_msgs::Wrench bodyWrench(const soft_tissue::Wrench& wrench_W,
+                                 const soft_tissue::Pose& X_WT);
 
 }  // namespace soft_tissue_sim

@@ -40,10 +40,12 @@ TissueState stateMessage(const SceneInfo& info, const soft_tissue::Snapshot& sna
 TissueField fieldMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,
                          std::size_t tissue, const Stamp& stamp);
 geometry_msgs::PoseStamped toolPoseMessage(const soft_tissue::ToolState& tool, const Stamp& stamp);
-/** Force of tissue on the tool, about the tool frame's origin, in tool axes; frame_id is the tool. */
+/** Force of tissue on the tool, about the tool frame's origin, in tool axes; frame_id is the tool.
+ */
 geometry_msgs::WrenchStamped bodyWrenchMessage(const soft_tissue::ToolState& tool,
                                                const std::string& tool_name, const Stamp& stamp);
-/** Force of tissue on the tool, about the tool frame's origin, in world axes; frame_id is the world. */
+/** Force of tissue on the tool, about the tool frame's origin, in world axes; frame_id is the
+ * world. */
 geometry_msgs::WrenchStamped spatialWrenchMessage(const soft_tissue::ToolState& tool,
                                                   const Stamp& stamp);
 ToolContacts contactsMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,

@@ -4,7 +4,8 @@
 
 namespace soft_tissue_sim
 {
-/** A new, empty folder among the system's temporary files; it goes, with all in it, with this object. */
+/** A new, empty folder among the system's temporary files; it goes, with all in it, with this
+ * object. */
 class ScratchFolder
 {
  public:

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "soft_tissue_sim/node/command_check.h"
+#include "soft_tissue_sim/node/command_slot.h"
+
+namespace soft_tissue_sim
+{
+/** What all of a tool's pose commands go through: counted, warned of when refused, watched for
+ * silence. */
+class CommandGate
+{
+ public:
+  /** @param tool  name for messages; @param watchdog_s  silence after which the pose counts as held
+   */
+  CommandGate(std::string tool, CommandSlot& slot, double watchdog_s);
+
+  void accept(const soft_tissue::Pose& X_WT);
+  /** Counts the rejection and warns of it, at most once a second. */
+  void reject(Rejection rejection, const std::string& detail);
+
+  const std::string& tool() const { return tool_; }
+  std::uint64_t accepted() const { return accepted_; }
+  std::uint64_t rejected(Rejection rejection) const;
+  std::uint64_t rejectedInAll() const;
+  /** Whether commands came and then stopped for longer than the watchdog allows. */
+  bool stale() const;
+  /** Seconds since the last accepted command. */
+  double silence() const;
+
+ private:
+  std::string tool_;
+  CommandSlot& slot_;
+  double watchdog_s_;
+  double last_warning_s_ = -1.0;  ///< steady clock
+  std::array<std::atomic<std::uint64_t>, kRejectionCount> rejected_{};
+  std::atomic<std::uint64_t> accepted_{0};
+  std::atomic<double> last_accepted_s_{0.0};
+};
+
+}  // namespace soft_tissue_sim

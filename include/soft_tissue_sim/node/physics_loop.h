@@ -1,0 +1,117 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "soft_tissue_sim/node/command_slot.h"
+#include "soft_tissue_sim/node/latest_exchange.h"
+#include "soft_tissue_sim/node/real_time_meter.h"
+#include "soft_tissue_sim/node/step_schedule.h"
+#include "soft_tissue_sim/scene/scene.h"
+
+namespace soft_tissue_sim
+{
+/** What moves simulated time on, and what messages are stamped with. */
+enum class TimeSource
+{
+  wall,       ///< the wall clock; stamps are wall time
+  own_clock,  ///< the wall clock; stamps are simulated time, for a node that publishes /clock
+  ros_clock,  ///< somebody else's /clock; stamps are its time
+};
+
+/** A finished step with what a publisher must know besides. */
+struct Frame
+{
+  soft_tissue::Snapshot snapshot;
+  ros::Time stamp;
+  double real_time_factor = 0.0;
+  std::uint64_t resets = 0;
+};
+
+/** Counts of the loop that anyone may read at any time. */
+struct LoopCounters
+{
+  std::atomic<std::uint64_t> steps{0};
+  std::atomic<std::uint64_t> missed_deadlines{0};
+  std::atomic<std::uint64_t> clock_jumps_back{0};
+  std::atomic<bool> paused{false};
+};
+
+/** The one thread that owns the scene. */
+class PhysicsLoop
+{
+ public:
+  struct Config
+  {
+    double real_time_factor = 1.0;  ///< simulated over wall time; 0: as fast as possible
+    bool paused = false;
+    TimeSource time_source = TimeSource::wall;
+  };
+
+  /** @param on_failure  called in the physics thread if it has to end for an exception */
+  PhysicsLoop(soft_tissue::Scene scene, const Config& config,
+              std::function<void(const std::string&)> on_failure);
+  ~PhysicsLoop();
+
+  void start();
+  /** Ends the thread after the step it is in. */
+  void stop();
+
+  /** Where commands for a tool are left. */
+  CommandSlot& commandSlot(std::size_t tool) { return slots_[tool]; }
+
+  void setPaused(bool paused);
+  /** Steps a paused loop; waits for the last one. @return simulated time, empty if it is not paused
+   */
+  std::optional<double> step(std::uint32_t steps);
+  /** Rest shape and initial tool poses; commands given before are forgotten; time goes on. */
+  void resetWorld();
+
+  LatestExchange<Frame>& frames() { return frames_; }
+  const LoopCounters& counters() const { return counters_; }
+
+ private:
+  void run();
+  void runTasks();
+  void waitForTask(double seconds);
+  void execute(std::function<void()> task);
+  bool stepIfDue();
+  void advance();
+  void publishFrame();
+  double clockNow() const;
+  double secondsToNextStep() const;
+  void restartClocks();
+
+  soft_tissue::Scene scene_;
+  Config config_;
+  std::function<void(const std::string&)> on_failure_;
+  std::deque<CommandSlot> slots_;  ///< one per tool
+  std::vector<std::optional<soft_tissue::Pose>> targets_W_;
+  StepSchedule schedule_;
+  RealTimeMeter meter_;
+  std::uint64_t resets_ = 0;
+  ros::Time stamp_;
+
+  LatestExchange<Frame> frames_;
+  LoopCounters counters_;
+  std::mutex task_mutex_;
+  std::condition_variable task_added_;
+  std::deque<std::packaged_task<void()>> tasks_;
+  bool accepting_ = true;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace soft_tissue_sim

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/wall_timer.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <deque>
+#include <memory>
+
+#include "soft_tissue_sim/node/diagnostics.h"
+#include "soft_tissue_sim/node/frame_publisher.h"
+#include "soft_tissue_sim/node/node_params.h"
+#include "soft_tissue_sim/node/sim_services.h"
+#include "soft_tissue_sim/node/tissue_topics.h"
+#include "soft_tissue_sim/node/tool_inputs.h"
+#include "soft_tissue_sim/node/tool_topics.h"
+
+namespace soft_tissue_sim
+{
+/** The simulation as a ROS node: inputs, the physics loop, outputs, services, diagnostics. */
+class SimNode
+{
+ public:
+  /**
+   * @param node  handle whose namespace all topics, services and parameters are in
+   * @throws soft_tissue::Error if the scene and the parameters can't be used together
+   */
+  SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene);
+  ~SimNode();
+
+  /** Whether the physics had to end for an exception. */
+  bool failed() const { return failed_; }
+
+ private:
+  void addInputs(const std::vector<soft_tissue::ToolConfig>& tools);
+  void addOutputs(const soft_tissue::SceneConfig& config);
+  void pollInputs();
+  void onFailure(const std::string& what);
+
+  ros::NodeHandle node_;
+  NodeParams params_;
+  SceneInfo info_;
+  const soft_tissue::SceneConfig config_;
+  std::atomic<bool> failed_{false};
+  PhysicsLoop loop_;
+
+  tf2_ros::Buffer buffer_;
+  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  std::deque<CommandGate> gates_;
+  std::deque<TopicInput> topic_inputs_;
+  std::deque<TfInput> tf_inputs_;
+  ros::WallTimer input_timer_;
+
+  FramePublisher publisher_;
+  std::unique_ptr<SceneTopics> scene_topics_;
+  std::deque<TissueTopics> tissue_topics_;
+  std::deque<ToolTopics> tool_topics_;
+  std::unique_ptr<Diagnostics> diagnostics_;
+  ros::WallTimer diagnostics_timer_;
+  std::unique_ptr<SimServices> services_;
+};
+
+}  // namespace soft_tissue_sim

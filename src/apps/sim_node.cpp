@@ -1,0 +1,29 @@
+#include "soft_tissue_sim/node/sim_node.h"
+
+#include <ros/ros.h>
+
+#include <thread>
+
+#include "soft_tissue_sim/node/scene_loader.h"
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "sim_node");
+  const ros::NodeHandle private_node("~");
+  try
+  {
+    using namespace soft_tissue_sim;
+    const NodeParams params = readNodeParams(private_node);
+    const int processors = static_cast<int>(std::thread::hardware_concurrency());
+    soft_tissue::setThreadCount(params.threads > 0 ? params.threads : processors);
+    SimNode node(private_node, params, loadScene(params.scene));
+    ROS_INFO_STREAM("simulating " << params.scene);
+    ros::spin();
+    return node.failed() ? 1 : 0;
+  }
+  catch (const std::exception& error)
+  {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
+}

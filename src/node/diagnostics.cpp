@@ -1,0 +1,92 @@
+#include "soft_tissue_sim/node/diagnostics.h"
+
+namespace soft_tissue_sim
+{
+namespace
+{
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+void reportCommands(const CommandGate& gate, DiagnosticStatusWrapper& status)
+{
+  if (gate.stale())
+  {
+    status.summaryf(DiagnosticStatus::WARN, "no command for %.1f s: pose held", gate.silence());
+  }
+  else if (gate.accepted() == 0 && gate.rejectedInAll() > 0)
+  {
+    status.summary(DiagnosticStatus::WARN, "no command accepted yet");
+  }
+  else
+  {
+    status.summary(DiagnosticStatus::OK,
+                   gate.accepted() == 0 ? "waiting for the first command" : "commands come in");
+  }
+  status.add("accepted", gate.accepted());
+  status.add("rejected", gate.rejectedInAll());
+  status.add("rejected: not finite", gate.rejected(Rejection::not_finite));
+  status.add("rejected: quaternion not unit", gate.rejected(Rejection::not_unit));
+  status.add("rejected: too far", gate.rejected(Rejection::too_far));
+  status.add("rejected: stamp went back", gate.rejected(Rejection::stamp_went_back));
+  status.add("tf failures: unknown frame", gate.rejected(Rejection::unknown_frame));
+  status.add("tf failures: no transform at the stamp", gate.rejected(Rejection::no_transform));
+}
+
+}  // namespace
+
+Diagnostics::Diagnostics(const PhysicsLoop& loop, const SceneTopics& scene_topics,
+                         const std::deque<CommandGate>& gates)
+    : loop_(loop), scene_topics_(scene_topics)
+{
+  updater_.setHardwareID("simulation");
+  updater_.add("physics", this, &Diagnostics::reportPhysics);
+  for (const CommandGate& gate : gates)
+  {
+    updater_.add(gate.tool() + " commands",
+                 [&gate](DiagnosticStatusWrapper& status) { reportCommands(gate, status); });
+  }
+}
+
+void Diagnostics::note(const Frame& frame)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_ = frame.snapshot.report;
+  real_time_factor_ = frame.real_time_factor;
+}
+
+void Diagnostics::reportPhysics(DiagnosticStatusWrapper& status)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const LoopCounters& counters = loop_.counters();
+  const std::uint64_t missed = counters.missed_deadlines;
+  if (report_.held)
+  {
+    status.summary(DiagnosticStatus::ERROR, "the last step failed: last good state held");
+  }
+  else if (missed > reported_missed_)
+  {
+    status.summary(DiagnosticStatus::WARN, "slower than the clock: deadlines missed");
+  }
+  else if (report_.min_det_f <= 0.0)
+  {
+    status.summary(DiagnosticStatus::WARN, "tetrahedra are turned inside out");
+  }
+  else
+  {
+    status.summary(DiagnosticStatus::OK, counters.paused ? "paused" : "running");
+  }
+  reported_missed_ = missed;
+  status.add("steps", counters.steps.load());
+  status.add("simulated time (s)", report_.time_s);
+  status.add("real-time factor", real_time_factor_);
+  status.add("missed deadlines", missed);
+  status.add("clock jumps back", counters.clock_jumps_back.load());
+  status.add("step (ms)", report_.ms.total);
+  status.add("worst tetrahedron: det F", report_.min_det_f);
+  status.add("deepest penetration (m)", report_.max_penetration_m);
+  status.add("residual", report_.residual);
+  status.add("converged", static_cast<bool>(report_.converged));
+  status.add("marker arrays built", scene_topics_.markerArraysBuilt());
+}
+
+}  // namespace soft_tissue_sim

@@ -1,0 +1,255 @@
+#include "soft_tissue_sim/node/physics_loop.h"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace soft_tissue_sim
+{
+namespace
+{
+constexpr double kMaxWallLag = 0.1;    // s
+constexpr double kMaxClockLag = 10.0;  // s: a /clock that moves further at once has jumped
+constexpr double kClockPoll = 0.001;   // s
+constexpr double kIdleWait = 3600.0;   // s
+
+StepSchedule makeSchedule(double step_s, const PhysicsLoop::Config& config)
+{
+  if (config.time_source == TimeSource::ros_clock)
+  {
+    return StepSchedule(step_s, 1.0, kMaxClockLag);
+  }
+  const bool as_fast_as_possible = config.real_time_factor == 0.0;
+  return StepSchedule(step_s, as_fast_as_possible ? 1.0 : config.real_time_factor, kMaxWallLag);
+}
+
+}  // namespace
+
+PhysicsLoop::PhysicsLoop(soft_tissue::Scene scene, const Config& config,
+                         std::function<void(const std::string&)> on_failure)
+    : scene_(std::move(scene)),
+      config_(config),
+      on_failure_(std::move(on_failure)),
+      slots_(scene_.tools().size()),
+      targets_W_(scene_.tools().size()),
+      schedule_(makeSchedule(scene_.config().time_step_s, config))
+{
+  counters_.paused = config.paused;
+}
+
+PhysicsLoop::~PhysicsLoop()
+{
+  stop();
+}
+
+void PhysicsLoop::start()
+{
+  thread_ = std::thread([this] {
+    try
+    {
+      run();
+    }
+    catch (const std::exception& error)
+    {
+      on_failure_(error.what());
+    }
+    const std::lock_guard<std::mutex> lock(task_mutex_);
+    accepting_ = false;
+    tasks_.clear();  // breaks the promises of those who wait
+  });
+}
+
+void PhysicsLoop::stop()
+{
+  {
+    const std::lock_guard<std::mutex> lock(task_mutex_);
+    stopping_ = true;
+  }
+  task_added_.notify_all();
+  if (thread_.joinable())
+  {
+    thread_.join();
+  }
+}
+
+void PhysicsLoop::run()
+{
+  restartClocks();
+  publishFrame();
+  while (!stopping_)
+  {
+    runTasks();
+    if (counters_.paused)
+    {
+      waitForTask(kIdleWait);
+    }
+    else if (!stepIfDue())
+    {
+      waitForTask(secondsToNextStep());
+    }
+  }
+}
+
+bool PhysicsLoop::stepIfDue()
+{
+  const bool as_fast_as_possible =
+      config_.time_source != TimeSource::ros_clock && config_.real_time_factor == 0.0;
+  if (as_fast_as_possible)
+  {
+    advance();
+    return true;
+  }
+  const bool due = schedule_.due(clockNow()) > 0;
+  counters_.missed_deadlines = schedule_.dropped();
+  counters_.clock_jumps_back = schedule_.jumpsBack();
+  if (due)
+  {
+    advance();
+  }
+  return due;
+}
+
+void PhysicsLoop::advance()
+{
+  for (std::size_t tool = 0; tool < slots_.size(); ++tool)
+  {
+    soft_tissue::Pose X_WT;
+    if (slots_[tool].take(X_WT))
+    {
+      targets_W_[tool] = X_WT;
+    }
+    if (targets_W_[tool])
+    {
+      scene_.setToolTarget(tool, *targets_W_[tool]);
+    }
+  }
+  const double due_time = schedule_.nextDue();
+  scene_.step();
+  schedule_.stepDone();
+  meter_.stepDone(ros::SteadyTime::now().toSec(), scene_.config().time_step_s);
+  ++counters_.steps;
+  stamp_ = config_.time_source == TimeSource::ros_clock ? ros::Time(due_time) : ros::Time::now();
+  publishFrame();
+}
+
+void PhysicsLoop::publishFrame()
+{
+  Frame& frame = frames_.back();
+  scene_.fillSnapshot(frame.snapshot);
+  frame.stamp = config_.time_source == TimeSource::own_clock ? ros::Time(scene_.time()) : stamp_;
+  frame.real_time_factor = meter_.factor();
+  frame.resets = resets_;
+  frames_.publish();
+}
+
+double PhysicsLoop::clockNow() const
+{
+  return config_.time_source == TimeSource::ros_clock ? ros::Time::now().toSec()
+                                                      : ros::SteadyTime::now().toSec();
+}
+
+double PhysicsLoop::secondsToNextStep() const
+{
+  return config_.time_source == TimeSource::ros_clock ? kClockPoll
+                                                      : schedule_.nextDue() - clockNow();
+}
+
+void PhysicsLoop::restartClocks()
+{
+  schedule_.anchor(clockNow());
+  meter_.restart(ros::SteadyTime::now().toSec());
+  stamp_ = ros::Time::now();
+}
+
+void PhysicsLoop::setPaused(bool paused)
+{
+  execute([this, paused] {
+    if (counters_.paused && !paused)
+    {
+      restartClocks();
+    }
+    counters_.paused = paused;
+  });
+}
+
+std::optional<double> PhysicsLoop::step(std::uint32_t steps)
+{
+  std::optional<double> time;
+  execute([this, steps, &time] {
+    if (!counters_.paused)
+    {
+      return;
+    }
+    for (std::uint32_t i = 0; i < steps && !stopping_; ++i)
+    {
+      advance();
+    }
+    time = scene_.time();
+  });
+  return time;
+}
+
+void PhysicsLoop::resetWorld()
+{
+  execute([this] {
+    for (std::size_t tool = 0; tool < slots_.size(); ++tool)
+    {
+      soft_tissue::Pose forgotten;
+      slots_[tool].take(forgotten);
+      targets_W_[tool].reset();
+    }
+    scene_.resetWorld();
+    ++resets_;
+    publishFrame();
+  });
+}
+
+void PhysicsLoop::execute(std::function<void()> task)
+{
+  std::future<void> done;
+  {
+    const std::lock_guard<std::mutex> lock(task_mutex_);
+    if (!accepting_)
+    {
+      return;
+    }
+    tasks_.emplace_back(std::move(task));
+    done = tasks_.back().get_future();
+  }
+  task_added_.notify_all();
+  try
+  {
+    done.get();
+  }
+  catch (const std::future_error&)
+  {
+    // The loop ended before it came to the task.
+  }
+}
+
+void PhysicsLoop::runTasks()
+{
+  for (;;)
+  {
+    std::packaged_task<void()> task;
+    {
+      const std::lock_guard<std::mutex> lock(task_mutex_);
+      if (tasks_.empty())
+      {
+        return;
+      }
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
+    }
+    task();
+  }
+}
+
+void PhysicsLoop::waitForTask(double seconds)
+{
+  std::unique_lock<std::mutex> lock(task_mutex_);
+  task_added_.wait_for(lock, std::chrono::duration<double>(seconds),
+                       [this] { return stopping_ || !tasks_.empty(); });
+}
+
+}  // namespace soft_tissue_sim

@@ -1,0 +1,138 @@
+#include "soft_tissue_sim/node/sim_node.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue_sim
+{
+namespace
+{
+using Kind = soft_tissue::PoseSourceConfig::Kind;
+
+bool anyContact(const soft_tissue::SceneConfig& config, const std::string& tissue)
+{
+  return std::any_of(config.contacts.begin(), config.contacts.end(),
+                     [&](const soft_tissue::ContactConfig& c) { return c.tissue == tissue; });
+}
+
+}  // namespace
+
+SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene)
+    : node_(node),
+      params_(params),
+      info_(scene),
+      config_(scene.config()),
+      loop_(std::move(scene), params.loop, [this](const std::string& what) { onFailure(what); }),
+      publisher_(loop_.frames())
+{
+  addInputs(config_.tools);
+  addOutputs(config_);
+  diagnostics_timer_ = node_.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
+  publisher_.start();
+  loop_.start();
+  services_ = std::make_unique<SimServices>(node_, loop_);
+}
+
+SimNode::~SimNode()
+{
+  input_timer_.stop();
+  diagnostics_timer_.stop();
+  loop_.stop();
+  services_.reset();
+  publisher_.stop();
+}
+
+void SimNode::addInputs(const std::vector<soft_tissue::ToolConfig>& tools)
+{
+  for (std::size_t tool = 0; tool < tools.size(); ++tool)
+  {
+    const soft_tissue::PoseSourceConfig& source = tools[tool].pose_source;
+    if (source.kind == Kind::keyframes)
+    {
+      continue;
+    }
+    if (!listener_)
+    {
+      listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
+    }
+    CommandGate& gate =
+        gates_.emplace_back(tools[tool].name, loop_.commandSlot(tool), params_.watchdog_s);
+    if (source.kind == Kind::topic)
+    {
+      topic_inputs_.emplace_back(node_, tools[tool].name + "/" + source.name, gate, buffer_,
+                                 params_.world_frame, params_.command_wait_s);
+      continue;
+    }
+    for (const soft_tissue::ToolConfig& other : tools)
+    {
+      if (source.name == other.name)
+      {
+        throw soft_tissue::Error("scene " + config_.file + ": tool '" + tools[tool].name +
+                                 "' follows the tf frame '" + source.name +
+                                 "', which is a frame this node broadcasts itself");
+      }
+    }
+    tf_inputs_.emplace_back(source.name, gate, buffer_, params_.world_frame);
+  }
+  input_timer_ = node_.createWallTimer(ros::WallDuration(1.0 / params_.tf_poll_hz),
+                                       [this](const ros::WallTimerEvent&) { pollInputs(); });
+}
+
+void SimNode::addOutputs(const soft_tissue::SceneConfig& config)
+{
+  const std::string& world = params_.world_frame;
+  const RateLimits& rates = params_.rates;
+  const ros::SubscriberStatusCallback on_subscriber =
+      [this](const ros::SingleSubscriberPublisher&) { publisher_.republish(); };
+  scene_topics_ = std::make_unique<SceneTopics>(node_, info_, params_.markers,
+                                                params_.publish_clock, world, on_subscriber);
+  diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, gates_);
+  publisher_.addStream(0.0, [this](const Frame& frame) { diagnostics_->note(frame); });
+  if (params_.publish_clock)
+  {
+    publisher_.addStream(0.0, [this](const Frame& frame) { scene_topics_->publishClock(frame); });
+  }
+  for (std::size_t tool = 0; tool < info_.tools.size(); ++tool)
+  {
+    ToolTopics& topics = tool_topics_.emplace_back(node_, info_, tool, world, on_subscriber);
+    publisher_.addStream(rates.tool_hz, [&topics](const Frame& frame) { topics.publish(frame); });
+  }
+  for (std::size_t tissue = 0; tissue < info_.tissues.size(); ++tissue)
+  {
+    const bool has_field = anyContact(config, info_.tissue_names[tissue]);
+    TissueTopics& topics =
+        tissue_topics_.emplace_back(node_, info_, tissue, has_field, world, on_subscriber);
+    publisher_.addStream(rates.state_hz,
+                         [&topics](const Frame& frame) { topics.publishState(frame); });
+    publisher_.addStream(rates.field_hz,
+                         [&topics](const Frame& frame) { topics.publishField(frame); });
+  }
+  publisher_.addStream(rates.stats_hz,
+                       [this](const Frame& frame) { scene_topics_->publishStats(frame); });
+  publisher_.addStream(rates.marker_hz,
+                       [this](const Frame& frame) { scene_topics_->publishMarkers(frame); });
+}
+
+void SimNode::pollInputs()
+{
+  for (TopicInput& input : topic_inputs_)
+  {
+    input.poll();
+  }
+  for (TfInput& input : tf_inputs_)
+  {
+    input.poll();
+  }
+}
+
+void SimNode::onFailure(const std::string& what)
+{
+  ROS_FATAL_STREAM("the physics ended: " << what);
+  failed_ = true;
+  ros::requestShutdown();
+}
+
+}  // namespace soft_tissue_sim
