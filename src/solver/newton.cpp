@@ -48,6 +48,14 @@ NewtonSolver::NewtonSolver(const Adjacency& neighbours, const std::vector<Index>
   fixed_blocks_.erase(std::unique(fixed_blocks_.begin(), fixed_blocks_.end()), fixed_blocks_.end());
 }
 
+void NewtonSolver::restoreFixed(const Points& from, Points& to) const
+{
+  for (const Index node : fixed_)
+  {
+    to[node] = from[node];
+  }
+}
+
 NewtonSolver::Potential NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms, const Points& x,
                                                std::vector<double>& seconds)
 {

@@ -71,7 +71,6 @@ struct TissueState
 {
   Points positions;               ///< N, world, m
   Points velocities;              ///< N, world, m/s
-  std::vector<double> depth;      ///< N nodal depths of the last field, m; NaN where not marched; empty without a field
   std::vector<float> von_mises;   ///< M, Pa; empty unless the scene asks for stress
 };
 
@@ -132,6 +131,12 @@ class Scene
 
   /** Copies the state out, reusing the memory `snapshot` already has. */
   void fillSnapshot(Snapshot& snapshot) const;
+
+  /**
+   * Depth of every node inside its deformed tissue, marched here and now for those who want to see it.
+   * @param depth  out, N, m: 0 on the boundary, > 0 inside
+   */
+  void fillDepth(std::size_t tissue, std::vector<double>& depth);
 
  private:
   class Impl;

@@ -45,6 +45,9 @@ class NewtonSolver
   NewtonReport minimise(const std::vector<EnergyTerm*>& terms, const NewtonOptions& options, Points& x,
                         std::vector<double>& seconds);
 
+  /** Copies the positions of fixed nodes from one state to another. */
+  void restoreFixed(const Points& from, Points& to) const;
+
  private:
   struct Potential
   {

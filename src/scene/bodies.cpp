@@ -1,0 +1,145 @@
+#include "bodies.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue
+{
+namespace
+{
+std::string indexed(const std::string& where, const char* key, std::size_t index)
+{
+  return where + "." + key + "[" + std::to_string(index) + "]";
+}
+
+std::vector<Index> nodesIn(const std::vector<BoxConfig>& boxes, const Points& nodes,
+                           const std::string& where)
+{
+  std::vector<Index> found;
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+  {
+    const BoxConfig& box = boxes[k];
+    const std::size_t before = found.size();
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if ((nodes[i].array() >= box.min.array()).all() && (nodes[i].array() <= box.max.array()).all())
+      {
+        found.push_back(static_cast<Index>(i));
+      }
+    }
+    if (found.size() == before)
+    {
+      throw Error(indexed(where, "fixed", k) + ".box_m holds no node of the mesh");
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+void applyRegions(const TissueConfig& config, const std::string& where, TissueModel& model)
+{
+  const std::vector<int>& tags = model.info.rest.tags;
+  for (std::size_t k = 0; k < config.regions.size(); ++k)
+  {
+    const RegionConfig& region = config.regions[k];
+    if (std::find(tags.begin(), tags.end(), region.tag) == tags.end())
+    {
+      throw Error(indexed(where, "regions", k) + ".tag = " + std::to_string(region.tag) +
+                  ": no tet of the mesh has this tag");
+    }
+    for (std::size_t t = 0; t < tags.size(); ++t)
+    {
+      if (tags[t] == region.tag)
+      {
+        model.stiffness[t].young_modulus =
+            region.young_modulus_pa.value_or(model.stiffness[t].young_modulus);
+        model.stiffness[t].poisson_ratio =
+            region.poisson_ratio.value_or(model.stiffness[t].poisson_ratio);
+        model.densities[t] = region.density_kg_per_m3.value_or(model.densities[t]);
+      }
+    }
+  }
+}
+
+std::shared_ptr<const RigidShape> makeShape(const ShapeGeometry& geometry, const std::string& where)
+{
+  if (const auto* sphere = std::get_if<SphereShape>(&geometry))
+  {
+    return makeSphere(sphere->radius_m);
+  }
+  if (const auto* capsule = std::get_if<CapsuleShape>(&geometry))
+  {
+    return makeCapsule(capsule->radius_m, capsule->length_m);
+  }
+  if (const auto* box = std::get_if<BoxShape>(&geometry))
+  {
+    return makeBox(box->size_m);
+  }
+  const MeshShape& shape = std::get<MeshShape>(geometry);
+  TriMesh mesh = loadTriMesh(shape.mesh.file, shape.mesh.metres_per_unit).mesh;
+  for (Vec3& p : mesh.nodes)
+  {
+    p = p.cwiseProduct(shape.scale);
+  }
+  if (shape.scale.prod() < 0.0)
+  {
+    for (Triangle& t : mesh.triangles)
+    {
+      std::swap(t[1], t[2]);
+    }
+  }
+  return makeMeshShape(mesh.nodes, mesh.triangles, where + " (" + shape.mesh.file + ")");
+}
+}  // namespace
+
+TissueModel makeTissue(const TissueConfig& config, const std::string& where)
+{
+  TissueModel model;
+  LoadedTetMesh loaded = loadTetMesh(config.mesh.file, config.mesh.metres_per_unit);
+  model.load_report = std::move(loaded.report);
+  model.info.name = config.name;
+  model.info.rest = std::move(loaded.mesh);
+  TetMesh& rest = model.info.rest;
+  const Pose X_WB = config.pose.toPose();
+  for (Vec3& p : rest.nodes)
+  {
+    p = X_WB * p;
+  }
+  for (std::size_t t = 0; t < rest.tets.size(); ++t)
+  {
+    const Tet& tet = rest.tets[t];
+    if (!(signedVolume6(rest.nodes[tet[0]], rest.nodes[tet[1]], rest.nodes[tet[2]],
+                        rest.nodes[tet[3]]) > 0.0))
+    {
+      throw Error(config.mesh.file + ": tet " + std::to_string(t) +
+                  " has no volume, can't be simulated; `mesh_tool repair` removes such tets");
+    }
+  }
+  model.info.surface = extractBoundary(static_cast<Index>(rest.nodes.size()), rest.tets);
+  model.info.fixed_nodes = nodesIn(config.fixed, rest.nodes, where);
+  const MaterialConfig& material = config.material;
+  model.stiffness.assign(rest.tets.size(), {material.young_modulus_pa, material.poisson_ratio});
+  model.densities.assign(rest.tets.size(), material.density_kg_per_m3);
+  applyRegions(config, where, model);
+  return model;
+}
+
+RigidBodyShape makeToolShape(const ToolConfig& config, const std::string& where)
+{
+  RigidBodyShape body;
+  for (std::size_t k = 0; k < config.shapes.size(); ++k)
+  {
+    const std::string name = config.shapes.size() > 1 ? indexed(where, "shapes", k) : where + ".shape";
+    body.add(makeShape(config.shapes[k].geometry, name), config.shapes[k].origin.toPose());
+  }
+  if (body.empty())
+  {
+    throw Error(where + " has no shape");
+  }
+  return body;
+}
+
+}  // namespace soft_tissue

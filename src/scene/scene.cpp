@@ -1,0 +1,135 @@
+#include "soft_tissue_sim/scene/scene.h"
+
+#include <algorithm>
+
+#include "scene_impl.h"
+#include "soft_tissue_sim/base/hash.h"
+
+namespace soft_tissue
+{
+void Scene::Impl::resetWorld()
+{
+  x_ = x_rest_;
+  std::fill(v_.begin(), v_.end(), Vec3::Zero());
+  for (std::size_t k = 0; k < tools_.size(); ++k)
+  {
+    Tool& tool = tools_[k];
+    tool.X_WT = tool.track ? tool.track->at(report_.time_s) : config_.tools[k].initial_pose.toPose();
+    tool.X_WT_goal = tool.X_WT;
+    tool.state = ToolState();
+    tool.state.X_WT = tool.X_WT;
+  }
+  const std::uint64_t number = report_.step;
+  const double time_s = report_.time_s;
+  report_ = StepReport();
+  report_.step = number;
+  report_.time_s = time_s;
+}
+
+std::uint64_t Scene::Impl::stateHash() const
+{
+  StateHash hash;
+  hash.addValue(report_.step);
+  hash.add(x_.data(), x_.size() * sizeof(Vec3));
+  hash.add(v_.data(), v_.size() * sizeof(Vec3));
+  for (const Tool& tool : tools_)
+  {
+    hash.add(tool.X_WT.data(), 16 * sizeof(double));
+  }
+  return hash.value();
+}
+
+void Scene::Impl::fillSnapshot(Snapshot& snapshot)
+{
+  snapshot.report = report_;
+  snapshot.state_hash = stateHash();
+  snapshot.tissues.resize(tissues_.size());
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
+  {
+    const Tissue& tissue = tissues_[k];
+    TissueState& state = snapshot.tissues[k];
+    const auto first = x_.begin() + tissue.first_node;
+    state.positions.assign(first, first + tissue.node_count);
+    const auto first_v = v_.begin() + tissue.first_node;
+    state.velocities.assign(first_v, first_v + tissue.node_count);
+    if (config_.outputs.stress)
+    {
+      tissue.elasticity->vonMises(x_, state.von_mises);
+    }
+  }
+  snapshot.tools.resize(tools_.size());
+  for (std::size_t k = 0; k < tools_.size(); ++k)
+  {
+    snapshot.tools[k] = tools_[k].state;
+  }
+}
+
+void Scene::Impl::fillDepth(std::size_t index, std::vector<double>& depth)
+{
+  Tissue& tissue = tissues_[index];
+  if (!tissue.display_field)
+  {
+    tissue.display_field =
+        makeDistanceField(config_.tissues[index].field.method, fieldTopology(index));
+  }
+  const auto first = x_.begin() + tissue.first_node;
+  tissue.display_field->march(Points(first, first + tissue.node_count));
+  depth = tissue.display_field->depth();
+}
+
+Scene::Scene(const SceneConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+const SceneConfig& Scene::config() const
+{
+  return impl_->config_;
+}
+
+const std::vector<TissueInfo>& Scene::tissues() const
+{
+  return impl_->tissue_info_;
+}
+
+const std::vector<ToolInfo>& Scene::tools() const
+{
+  return impl_->tool_info_;
+}
+
+double Scene::time() const
+{
+  return impl_->report_.time_s;
+}
+
+void Scene::setToolTarget(std::size_t tool, const Pose& X_WT)
+{
+  impl_->tools_.at(tool).X_WT_goal = X_WT;
+}
+
+const StepReport& Scene::step()
+{
+  return impl_->step();
+}
+
+void Scene::resetWorld()
+{
+  impl_->resetWorld();
+}
+
+std::uint64_t Scene::stateHash() const
+{
+  return impl_->stateHash();
+}
+
+void Scene::fillSnapshot(Snapshot& snapshot) const
+{
+  impl_->fillSnapshot(snapshot);
+}
+
+void Scene::fillDepth(std::size_t tissue, std::vector<double>& depth)
+{
+  impl_->fillDepth(tissue, depth);
+}
+
+}  // namespace soft_tissue

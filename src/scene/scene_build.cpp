@@ -1,0 +1,199 @@
+#include <algorithm>
+
+#include "bodies.h"
+#include "scene_impl.h"
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** Contact stiffness when the scene leaves it to us, in Young's moduli per inner radius of the tool. */
+constexpr double kAutoStiffness = 20.0;
+/** A tool may start touching, but not with more of its inner radius than this inside tissue. */
+constexpr double kDeepStart = 0.5;
+/** Static scenes up to this size are solved directly where the scene leaves it to us. */
+constexpr Index kCholeskyStaticNodes = 60000;
+
+std::string item(const SceneConfig& config, const char* list, std::size_t index)
+{
+  return config.file + ": " + list + "[" + std::to_string(index) + "]";
+}
+
+template <typename Configs>
+std::size_t find(const Configs& configs, const std::string& name)
+{
+  const auto found =
+      std::find_if(configs.begin(), configs.end(), [&](const auto& c) { return c.name == name; });
+  return found - configs.begin();
+}
+}  // namespace
+
+Scene::Impl::Impl(const SceneConfig& config) : config_(config)
+{
+  tissue_info_.reserve(config_.tissues.size());
+  tissues_.resize(config_.tissues.size());
+  for (std::size_t k = 0; k < config_.tissues.size(); ++k)
+  {
+    addTissue(k);
+  }
+  x_rest_ = x_;
+  v_.assign(x_.size(), Vec3::Zero());
+  inertia_ = std::make_unique<Inertia>(masses_);
+  gravity_ = std::make_unique<Gravity>(masses_, config_.gravity_m_per_s2);
+  makeSolver();
+  tools_.reserve(config_.tools.size());
+  for (std::size_t k = 0; k < config_.tools.size(); ++k)
+  {
+    addTool(k);
+  }
+  for (std::size_t k = 0; k < config_.contacts.size(); ++k)
+  {
+    addContact(k);
+  }
+  saved_.resize(kMaxHalvings + 1);
+  refuseDeepStart();
+}
+
+void Scene::Impl::addTissue(std::size_t index)
+{
+  const TissueConfig& tissue_config = config_.tissues[index];
+  TissueModel model = makeTissue(tissue_config, item(config_, "tissues", index));
+  Tissue& tissue = tissues_[index];
+  tissue_info_.push_back(std::move(model.info));
+  const TissueInfo& info = tissue_info_.back();
+  if (config_.solver.stepper == Stepper::quasi_static && info.fixed_nodes.empty())
+  {
+    throw Error(item(config_, "tissues", index) +
+                ".fixed is empty: a quasi-static tissue needs a fixed region");
+  }
+  tissue.first_node = static_cast<Index>(x_.size());
+  tissue.node_count = static_cast<Index>(info.rest.nodes.size());
+  tissue.neighbours = nodeNeighbours(tissue.node_count, info.rest.tets);
+  tissue.elasticity = std::make_unique<TetElasticity>(info.rest, tissue_config.material.model,
+                                                      model.stiffness, tissue.first_node);
+  x_.insert(x_.end(), info.rest.nodes.begin(), info.rest.nodes.end());
+  masses_.resize(x_.size(), 0.0);
+  addLumpedMasses(info.rest, model.densities, tissue.first_node, masses_);
+}
+
+void Scene::Impl::makeSolver()
+{
+  Adjacency all;
+  std::vector<Index> held;
+  all.offsets.push_back(0);
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
+  {
+    const Tissue& tissue = tissues_[k];
+    for (Index node = 0; node < tissue.node_count; ++node)
+    {
+      for (const Index* other = tissue.neighbours.begin(node); other != tissue.neighbours.end(node);
+           ++other)
+      {
+        all.items.push_back(tissue.first_node + *other);
+      }
+      all.offsets.push_back(static_cast<Index>(all.items.size()));
+    }
+    for (const Index node : tissue_info_[k].fixed_nodes)
+    {
+      held.push_back(tissue.first_node + node);
+    }
+  }
+  // Nodes in no tet have no mass and feel no force: they stay where the file puts them.
+  for (std::size_t i = 0; i < masses_.size(); ++i)
+  {
+    if (masses_[i] == 0.0)
+    {
+      held.push_back(static_cast<Index>(i));
+    }
+  }
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  const bool direct = config_.solver.linear == LinearSolverKind::cholesky ||
+                      (config_.solver.linear == LinearSolverKind::automatic &&
+                       config_.solver.stepper == Stepper::quasi_static &&
+                       static_cast<Index>(x_.size()) <= kCholeskyStaticNodes);
+  newton_ = std::make_unique<NewtonSolver>(all, held, direct ? makeCholesky() : makePcg());
+}
+
+void Scene::Impl::addTool(std::size_t index)
+{
+  const ToolConfig& tool_config = config_.tools[index];
+  Tool tool;
+  tool.shape = makeToolShape(tool_config, item(config_, "tools", index));
+  tool.X_WT = tool_config.initial_pose.toPose();
+  if (tool_config.pose_source.kind == PoseSourceConfig::Kind::keyframes)
+  {
+    tool.track.emplace(tool_config.pose_source.keyframes);
+    tool.X_WT = tool.track->at(0.0);
+  }
+  tool.X_WT_goal = tool.X_WT;
+  tool.state.X_WT = tool.X_WT;
+  SurfaceMesh surface = tool.shape.surface(0.5 * tool.shape.innerRadius());
+  tool_info_.push_back({tool_config.name, {std::move(surface.nodes), std::move(surface.triangles)}});
+  tools_.push_back(std::move(tool));
+}
+
+FieldTopology Scene::Impl::fieldTopology(std::size_t tissue) const
+{
+  return {&tissue_info_[tissue].rest.tets, &tissue_info_[tissue].surface, &tissues_[tissue].neighbours};
+}
+
+void Scene::Impl::addContact(std::size_t index)
+{
+  const ContactConfig& contact_config = config_.contacts[index];
+  Contact contact;
+  contact.tissue = find(config_.tissues, contact_config.tissue);
+  contact.tool = find(config_.tools, contact_config.tool);
+  const TissueConfig& tissue_config = config_.tissues[contact.tissue];
+  const TissueInfo& info = tissue_info_[contact.tissue];
+  Tissue& tissue = tissues_[contact.tissue];
+  const RigidBodyShape& shape = tools_[contact.tool].shape;
+  if (tissue.tet_neighbours.empty())
+  {
+    tissue.tet_neighbours = tetNeighbours(info.rest.tets);
+  }
+  ToolContactOptions options;
+  options.segments = contact_config.response == Response::segment;
+  options.closest_feature = tissue_config.field.depth == DepthKind::closest_feature;
+  options.friction = contact_config.friction;
+  options.stiffness_pa_per_m = contact_config.stiffness_pa_per_m.value_or(
+      kAutoStiffness * tissue_config.material.young_modulus_pa / shape.innerRadius());
+  TissueBody body;
+  body.tets = &info.rest.tets;
+  body.surface = &info.surface;
+  body.tet_neighbours = &tissue.tet_neighbours;
+  body.first_node = tissue.first_node;
+  body.node_count = tissue.node_count;
+  contact.term = std::make_unique<ToolContact>(
+      body, shape, makeDistanceField(tissue_config.field.method, fieldTopology(contact.tissue)), options);
+  contact.refresh = tissue_config.field.refresh != FieldRefresh::carried;
+  contacts_.push_back(std::move(contact));
+}
+
+void Scene::Impl::refuseDeepStart()
+{
+  for (const Contact& contact : contacts_)
+  {
+    const Tool& tool = tools_[contact.tool];
+    contact.term->beginStep(x_, tool.X_WT, tool.X_WT, config_.time_step_s, true);
+    if (!contact.term->active())
+    {
+      continue;
+    }
+    double deepest = 0.0;
+    for (const ContactSample& sample : contact.term->samples(x_))
+    {
+      deepest = std::max(deepest, sample.depth);
+    }
+    if (deepest > kDeepStart * tool.shape.innerRadius())
+    {
+      throw Error(item(config_, "tools", contact.tool) + " '" + config_.tools[contact.tool].name +
+                  "' starts " + std::to_string(1e3 * deepest) + " mm deep inside tissue '" +
+                  config_.tissues[contact.tissue].name +
+                  "', must start outside it: set initial_pose or the first key frame");
+    }
+  }
+}
+
+}  // namespace soft_tissue

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pose_track.h"
+#include "soft_tissue_sim/contact/tool_contact.h"
+#include "soft_tissue_sim/energy/mass_terms.h"
+#include "soft_tissue_sim/energy/tet_elasticity.h"
+#include "soft_tissue_sim/scene/scene.h"
+#include "soft_tissue_sim/solver/newton.h"
+
+namespace soft_tissue
+{
+/** The scene itself. Building is in scene_build.cpp, moving in scene_step.cpp, reading out in scene.cpp. */
+class Scene::Impl
+{
+ public:
+  explicit Impl(const SceneConfig& config);
+
+  const StepReport& step();
+  void resetWorld();
+  void refuseDeepStart();
+  std::uint64_t stateHash() const;
+  void fillSnapshot(Snapshot& snapshot);
+  void fillDepth(std::size_t tissue, std::vector<double>& depth);
+
+  /** How often a step may be halved before it is given up. */
+  static constexpr int kMaxHalvings = 4;
+
+  SceneConfig config_;
+  std::vector<TissueInfo> tissue_info_;
+  std::vector<ToolInfo> tool_info_;
+  StepReport report_;
+
+  struct Tool
+  {
+    RigidBodyShape shape;
+    std::optional<PoseTrack> track;
+    Pose X_WT = Pose::Identity();      ///< now
+    Pose X_WT_goal = Pose::Identity(); ///< at the end of the step
+    ToolState state;
+  };
+  std::vector<Tool, Eigen::aligned_allocator<Tool>> tools_;
+
+ private:
+  /** What a tissue adds to the scene, and where its nodes stand among all. */
+  struct Tissue
+  {
+    Index first_node = 0;
+    Index node_count = 0;
+    Adjacency neighbours;
+    std::vector<std::array<Index, 4>> tet_neighbours;
+    std::unique_ptr<TetElasticity> elasticity;
+    std::unique_ptr<DistanceField> display_field;  ///< made when somebody asks for the whole field
+  };
+  struct Contact
+  {
+    std::size_t tissue = 0;
+    std::size_t tool = 0;
+    std::unique_ptr<ToolContact> term;
+    bool refresh = true;
+  };
+  struct SavedState
+  {
+    Points x, v;
+  };
+
+  void addTissue(std::size_t index);
+  void addTool(std::size_t index);
+  void addContact(std::size_t index);
+  void makeSolver();
+  FieldTopology fieldTopology(std::size_t tissue) const;
+  void aimTools();
+  bool advance(double from, double to, int depth);
+  bool minimise(double from, double to);
+  void finishStep();
+  void collectContacts();
+
+  std::vector<Tissue> tissues_;
+  std::vector<Contact> contacts_;
+  Points x_, x_rest_, v_;
+  std::vector<double> masses_;
+  std::unique_ptr<Inertia> inertia_;
+  std::unique_ptr<Gravity> gravity_;
+  std::unique_ptr<NewtonSolver> newton_;
+  std::vector<EnergyTerm*> terms_;
+  std::vector<double> term_seconds_;
+  Points before_;                  ///< positions at the start of the running minimisation
+  std::vector<SavedState> saved_;  ///< one per level of halving
+};
+
+}  // namespace soft_tissue

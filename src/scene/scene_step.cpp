@@ -1,0 +1,185 @@
+#include <algorithm>
+
+#include "scene_impl.h"
+#include "soft_tissue_sim/base/timer.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** A minimisation that stops with more of the forces unbalanced has failed: the step is halved. */
+constexpr double kFailedResidual = 0.05;
+}  // namespace
+
+void Scene::Impl::aimTools()
+{
+  const double end_s = report_.time_s + config_.time_step_s;
+  for (Tool& tool : tools_)
+  {
+    if (tool.track)
+    {
+      tool.X_WT_goal = tool.track->at(end_s);
+    }
+  }
+}
+
+const StepReport& Scene::Impl::step()
+{
+  const Timer timer;
+  const std::uint64_t number = report_.step + 1;
+  const double start_s = report_.time_s;
+  aimTools();
+  report_ = StepReport();
+  report_.step = number;
+  report_.time_s = start_s;
+  if (!advance(0.0, 1.0, 0))
+  {
+    x_ = saved_[0].x;
+    std::fill(v_.begin(), v_.end(), Vec3::Zero());
+    report_.held = true;
+  }
+  report_.time_s = start_s + config_.time_step_s;
+  finishStep();
+  report_.ms.total = 1e3 * timer.seconds();
+  return report_;
+}
+
+/** Moves on through the part [from, to] of the step, halving it as often as needed. */
+bool Scene::Impl::advance(double from, double to, int depth)
+{
+  SavedState& saved = saved_[depth];
+  saved.x = x_;
+  saved.v = v_;
+  if (minimise(from, to))
+  {
+    return true;
+  }
+  x_ = saved.x;
+  v_ = saved.v;
+  if (depth == kMaxHalvings)
+  {
+    return false;
+  }
+  ++report_.halvings;
+  const double middle = 0.5 * (from + to);
+  return advance(from, middle, depth + 1) && advance(middle, to, depth + 1);
+}
+
+/** One minimisation of the potential over the part [from, to] of the step. */
+bool Scene::Impl::minimise(double from, double to)
+{
+  const double h = (to - from) * config_.time_step_s;
+  const bool dynamic = config_.solver.stepper == Stepper::implicit_euler;
+  terms_.clear();
+  terms_.push_back(gravity_.get());
+  if (dynamic)
+  {
+    inertia_->beginStep(x_, v_, h);
+    terms_.push_back(inertia_.get());
+  }
+  for (const Tissue& tissue : tissues_)
+  {
+    terms_.push_back(tissue.elasticity.get());
+  }
+  const std::size_t first_contact = terms_.size();
+  for (const Contact& contact : contacts_)
+  {
+    const Tool& tool = tools_[contact.tool];
+    contact.term->beginStep(x_, interpolate(tool.X_WT, tool.X_WT_goal, from),
+                            interpolate(tool.X_WT, tool.X_WT_goal, to), h, contact.refresh);
+    if (contact.term->active())
+    {
+      terms_.push_back(contact.term.get());
+    }
+  }
+  term_seconds_.assign(terms_.size(), 0.0);
+  NewtonOptions options;
+  options.tolerance = config_.solver.tolerance;
+  options.max_iterations = config_.solver.max_iterations;
+  before_ = x_;
+  if (dynamic)
+  {
+    x_ = inertia_->target();
+    newton_->restoreFixed(before_, x_);
+  }
+  const NewtonReport newton = newton_->minimise(terms_, options, x_, term_seconds_);
+  for (std::size_t k = 0; k < first_contact; ++k)
+  {
+    report_.ms.fem += 1e3 * term_seconds_[k];
+  }
+  report_.ms.solve += 1e3 * newton.linear_s;
+  report_.newton_iterations += newton.iterations;
+  report_.linear_iterations += newton.linear_iterations;
+  report_.residual = newton.residual;
+  report_.converged = newton.converged;
+  if (!newton.finite || !(newton.residual <= std::max(kFailedResidual, config_.solver.tolerance)))
+  {
+    return false;
+  }
+  for (std::size_t i = 0; i < x_.size(); ++i)
+  {
+    v_[i] = dynamic ? Vec3((x_[i] - before_[i]) / h) : Vec3(Vec3::Zero());
+  }
+  return true;
+}
+
+/** What the finished step looks like: forces on tools, worst tet, deepest contact, times. */
+void Scene::Impl::finishStep()
+{
+  for (Tool& tool : tools_)
+  {
+    tool.X_WT = tool.X_WT_goal;
+    tool.state.X_WT = tool.X_WT;
+  }
+  collectContacts();
+  const Timer timer;
+  report_.min_det_f = tissues_.empty() ? 1.0 : 1e300;
+  for (const Tissue& tissue : tissues_)
+  {
+    report_.min_det_f = std::min(report_.min_det_f, tissue.elasticity->minDetF(x_));
+  }
+  report_.ms.fem += 1e3 * timer.seconds();
+  for (const Contact& contact : contacts_)
+  {
+    const ContactTimes times = contact.term->takeTimes();
+    report_.ms.field += 1e3 * times.field;
+    report_.ms.detect += 1e3 * times.detect;
+    report_.ms.respond += 1e3 * times.respond;
+  }
+}
+
+void Scene::Impl::collectContacts()
+{
+  for (Tool& tool : tools_)
+  {
+    tool.state.wrench_W = Wrench();
+    tool.state.contacts.clear();
+  }
+  for (const Contact& contact : contacts_)
+  {
+    if (!contact.term->active())
+    {
+      continue;
+    }
+    Tool& tool = tools_[contact.tool];
+    for (const ContactSample& sample : contact.term->samples(x_))
+    {
+      ContactPoint point;
+      point.position_W = sample.position;
+      // d grows along the gradient for the intruder: the tool, or the tissue that has the tool around it.
+      const double sign = sample.tool_sign > 0 ? -1.0 : 1.0;
+      point.normal_W = sign * sample.gradient.normalized();
+      point.force_W = sign * sample.stiffness_area * sample.depth * sample.gradient;
+      point.depth = sample.depth;
+      point.area = sample.area;
+      point.tissue = static_cast<Index>(contact.tissue);
+      tool.state.wrench_W.force += point.force_W;
+      tool.state.wrench_W.torque += (point.position_W - tool.X_WT.translation()).cross(point.force_W);
+      report_.max_penetration_m = std::max(report_.max_penetration_m, sample.depth);
+      tool.state.contacts.push_back(point);
+      ++report_.contacts;
+    }
+  }
+}
+
+}  // namespace soft_tissue
