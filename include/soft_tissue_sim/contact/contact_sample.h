@@ -9,22 +9,31 @@ namespace soft_tissue
 /**
  * One quadrature point of the contact energy E = integral of 1/2 kappa d^2 dA.
  *
- * Both responses, point- and segment-in-object, both directions of a pair, and every kind of depth end as
- * samples: energy 1/2 kappa area d^2, and d's derivative by node j is coefficient[j] * gradient.
+ * Both responses, point- and segment-in-object, both directions of a pair, and every kind of depth
+ * end as samples: energy 1/2 kappa area d^2, and d's derivative by node j is coefficient[j] *
+ * gradient. The two directions are averaged by halving the area of each: areas of one direction add
+ * up to half of the touching surface, and energies and forces are plain sums over all samples.
  */
 struct ContactSample
 {
   static constexpr int kMaxNodes = 6;  ///< an edge's two nodes and a tet's four
 
-  Vec3 position;                              ///< m, world
-  Vec3 gradient;                              ///< unit where d is a true distance: derivative of d by the intruding point
-  double depth = 0.0;                         ///< m, > 0
-  double stiffness_area = 0.0;                ///< kappa times area, N/m
-  double area = 0.0;                          ///< m^2
-  int count = 0;                              ///< nodes that d depends on
-  std::array<Index, kMaxNodes> node;          ///< rows of x
-  std::array<double, kMaxNodes> coefficient;  ///< intruder weights, minus host weights
-  int tool_sign = 0;                          ///< +1: the tool intrudes, force on it is -kappa area d gradient; -1: the tissue intrudes
+  Vec3 position = Vec3::Zero();         ///< m, world
+  Vec3 gradient = Vec3::Zero();         ///< of d by the intruding point; unit for a true distance
+  double depth = 0.0;                   ///< m, > 0
+  double stiffness_area = 0.0;          ///< kappa times area, N/m
+  double area = 0.0;                    ///< m^2, half of the surface it stands for
+  int count = 0;                        ///< nodes that d depends on
+  std::array<Index, kMaxNodes> node{};  ///< rows of x
+  std::array<double, kMaxNodes> coefficient{};  ///< intruder weights, minus host weights
+  int tool_sign = 0;                            ///< +1: the tool intrudes; -1: the tissue does
+
+  /** Force along the gradient that opens the overlap acts on the intruder: this much against it, N.
+   */
+  double pressureForce() const { return stiffness_area * depth; }
+
+  /** Force of the tissue on the tool, N, world; it acts at `position`. */
+  Vec3 forceOnTool() const { return -tool_sign * pressureForce() * gradient; }
 };
 
 }  // namespace soft_tissue

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/contact/tissue_body.h"
 #include "soft_tissue_sim/energy/term.h"
 #include "soft_tissue_sim/field/distance_field.h"
 #include "soft_tissue_sim/geometry/rigid_shape.h"
@@ -13,21 +14,12 @@ namespace soft_tissue
 /** How contact between a tool and a tissue is modelled. */
 struct ToolContactOptions
 {
-  bool segments = true;             ///< segment-in-object; false: point-in-object
-  bool closest_feature = true;      ///< depth from the nearest boundary feature; false: interpolated nodal depths
+  bool segments = true;         ///< segment-in-object; false: point-in-object
+  bool closest_feature = true;  ///< depth from the nearest boundary feature; false: interpolated
+  bool lazy_field = true;       ///< march only as far as contacts read, and only when they do
   double stiffness_pa_per_m = 0.0;  ///< kappa
   double friction = 0.0;            ///< Coulomb coefficient
   double friction_speed = 1e-3;     ///< m/s below which friction is smoothed
-};
-
-/** The body a tool presses, as the contact sees it; everything pointed to outlives the contact. */
-struct TissueBody
-{
-  const std::vector<Tet>* tets = nullptr;
-  const BoundarySurface* surface = nullptr;
-  const std::vector<std::array<Index, 4>>* tet_neighbours = nullptr;
-  Index first_node = 0;  ///< row of the body's node 0 in the positions of the whole scene
-  Index node_count = 0;
 };
 
 /** Wall time of a contact's parts since the last call of takeTimes(), s. */
@@ -39,16 +31,17 @@ struct ContactTimes
 };
 
 /**
- * Penalty contact of one rigid tool with one tissue: tool surface in the tissue's depth, and tissue surface in
- * the tool's exact distance, each the integral of 1/2 kappa d^2 dA, averaged.
+ * Penalty contact of one rigid tool with one tissue: tool surface in the tissue's depth, and tissue
+ * surface in the tool's exact distance, each the integral of 1/2 kappa d^2 dA, averaged.
  *
- * beginStep() lags what the minimisation holds fixed: tool pose, candidate elements, surface areas, nodal depths.
+ * beginStep() lags what the minimisation holds fixed: tool pose, candidate elements, surface areas,
+ * nodal depths.
  */
 class ToolContact : public EnergyTerm
 {
  public:
-  ToolContact(const TissueBody& tissue, const RigidBodyShape& tool, std::unique_ptr<DistanceField> field,
-              const ToolContactOptions& options);
+  ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
+              std::unique_ptr<DistanceField> field, const ToolContactOptions& options);
   ~ToolContact() override;
 
   /**
@@ -57,9 +50,11 @@ class ToolContact : public EnergyTerm
    * @param X_WT_before  tool pose at the start of the step
    * @param X_WT         tool pose at its end: the pose contact is evaluated at
    * @param step_s       length of the step, for friction
-   * @param refresh      march the nodal depths anew on x (only as far as needed) rather than keep them
+   * @param refresh      march the nodal depths anew on x; false keeps those there are and marches
+   * on x only where a contact reads a node that has none yet
    */
-  void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s, bool refresh);
+  void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s,
+                 bool refresh);
 
   /** False when nothing can touch during this step: value, gradient and Hessian are then zero. */
   bool active() const;

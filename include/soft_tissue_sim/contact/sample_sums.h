@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/energy/block_matrix.h"
+
+namespace soft_tissue
+{
+/** Sum of 1/2 kappa area d^2, joules. */
+double contactEnergy(const std::vector<ContactSample>& samples);
+
+/** gradient += its derivative by the nodes, N. */
+void addContactGradient(const std::vector<ContactSample>& samples, Points& gradient);
+
+/**
+ * hessian += its Gauss-Newton part kappa area c_i c_j g g^T, positive semi-definite.
+ *
+ * @throws Error if a pair of nodes is outside the matrix's pattern
+ */
+void addContactHessian(const std::vector<ContactSample>& samples, BlockMatrix& hessian);
+
+/** Adds the force of the tissue on the tool, N, and its moment about `reference` (world, m), N m.
+ */
+void addToolWrench(const std::vector<ContactSample>& samples, const Vec3& reference, Vec3& force,
+                   Vec3& torque);
+
+}  // namespace soft_tissue

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/contact/tissue_body.h"
+#include "soft_tissue_sim/field/distance_field.h"
+#include "soft_tissue_sim/geometry/barycentric.h"
+
+namespace soft_tissue
+{
+/** Depth of points inside a deformed tissue, with what it depends on. */
+class TissueDepth
+{
+ public:
+  /**
+   * @param closest_feature  true distance to the nearest boundary feature; false: linear in the tet
+   *                         from nodal depths that are held constant
+   */
+  TissueDepth(const TissueBody& tissue, bool closest_feature);
+
+  /**
+   * Sets position, depth, gradient, nodes and coefficients of a sample at p.
+   * @param p       point in `tet`, m, world
+   * @param coords  of `tet` at x
+   * @param x       positions of the body alone, N x 3, m
+   * @param field   marched on all nodes of `tet`
+   * @return false where the depth is zero
+   */
+  bool evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
+                const DistanceField& field, ContactSample& sample) const;
+
+ private:
+  bool interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,
+                   const DistanceField& field, ContactSample& sample) const;
+  bool findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                   ContactSample& sample) const;
+
+  TissueBody tissue_;
+  bool closest_feature_;
+  Adjacency tet_triangles_;  ///< rows: tets; boundary triangles of each
+};
+
+}  // namespace soft_tissue

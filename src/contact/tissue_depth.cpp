@@ -1,0 +1,114 @@
+#include "soft_tissue_sim/contact/tissue_depth.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace soft_tissue
+{
+namespace
+{
+Adjacency trianglesOfTets(std::size_t tet_count, const std::vector<Index>& triangle_tet)
+{
+  Adjacency rows;
+  rows.offsets.assign(tet_count + 1, 0);
+  for (const Index tet : triangle_tet)
+  {
+    ++rows.offsets[tet + 1];
+  }
+  for (std::size_t t = 0; t < tet_count; ++t)
+  {
+    rows.offsets[t + 1] += rows.offsets[t];
+  }
+  rows.items.resize(triangle_tet.size());
+  std::vector<Index> fill(rows.offsets.begin(), rows.offsets.end() - 1);
+  for (std::size_t i = 0; i < triangle_tet.size(); ++i)
+  {
+    rows.items[fill[triangle_tet[i]]++] = static_cast<Index>(i);
+  }
+  return rows;
+}
+
+/** The triangles a search for the nearest boundary feature starts from, each once. */
+struct Starts
+{
+  std::array<Index, 8> triangle;  // one per node and one per face of a tet
+  int count = 0;
+
+  void add(Index candidate)
+  {
+    if (candidate >= 0 && std::find(triangle.begin(), triangle.begin() + count, candidate) ==
+                              triangle.begin() + count)
+    {
+      triangle[count++] = candidate;
+    }
+  }
+};
+}  // namespace
+
+TissueDepth::TissueDepth(const TissueBody& tissue, bool closest_feature)
+    : tissue_(tissue),
+      closest_feature_(closest_feature),
+      tet_triangles_(trianglesOfTets(tissue.tets->size(), tissue.surface->triangle_tet))
+{}
+
+bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
+                           const DistanceField& field, ContactSample& sample) const
+{
+  sample.position = p;
+  return closest_feature_ ? findFeature(p, tet, x, field, sample)
+                          : interpolate(p, (*tissue_.tets)[tet], coords, field, sample);
+}
+
+bool TissueDepth::interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,
+                              const DistanceField& field, ContactSample& sample) const
+{
+  const Eigen::Vector4d weights = coords.weights(p);
+  Eigen::Vector4d depth;
+  sample.count = 4;
+  for (int k = 0; k < 4; ++k)
+  {
+    depth[k] = field.depth()[tet[k]];
+    sample.node[k] = tissue_.first_node + tet[k];
+    sample.coefficient[k] = -weights[k];
+  }
+  sample.depth = weights.dot(depth);
+  sample.gradient = coords.gradients * depth;
+  return sample.depth > 0.0;
+}
+
+bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                              ContactSample& sample) const
+{
+  Starts starts;
+  for (const Index node : (*tissue_.tets)[tet])
+  {
+    starts.add(field.closestTriangle()[node]);
+  }
+  for (const Index* i = tet_triangles_.begin(tet); i != tet_triangles_.end(tet); ++i)
+  {
+    starts.add(*i);
+  }
+  if (starts.count == 0)
+  {
+    return false;
+  }
+  const BoundaryPoint nearest =
+      descendToBoundary(p, x, *tissue_.surface, starts.triangle.data(), starts.count);
+  const Triangle& triangle = tissue_.surface->triangles[nearest.triangle];
+  sample.count = 3;
+  for (int k = 0; k < 3; ++k)
+  {
+    sample.node[k] = tissue_.first_node + triangle[k];
+    sample.coefficient[k] = -nearest.weights[k];
+  }
+  sample.depth = nearest.distance;
+  // On the surface the direction is lost in rounding; there it is the triangle's own normal.
+  constexpr double kOnSurface = 1e-10;
+  const Vec3 side = x[triangle[1]] - x[triangle[0]];
+  sample.gradient = nearest.distance > kOnSurface * side.norm()
+                        ? Vec3((p - nearest.point) / nearest.distance)
+                        : Vec3((x[triangle[2]] - x[triangle[0]]).cross(side).normalized());
+  return sample.depth > 0.0;
+}
+
+}  // namespace soft_tissue

@@ -1,0 +1,253 @@
+#include "soft_tissue_sim/contact/tool_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "soft_tissue_sim/base/timer.h"
+#include "soft_tissue_sim/contact/sample_sums.h"
+#include "tissue_in_tool.h"
+#include "tool_in_tissue.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** Largest distance any point has moved, m; infinite when that can't be told. */
+double largestMotion(const Points& from, const Points& to)
+{
+  double squared = 0.0;
+  for (std::size_t i = 0; i < from.size(); ++i)
+  {
+    const double moved = (to[i] - from[i]).squaredNorm();
+    if (!(moved <= squared))
+    {
+      squared = moved;
+    }
+    if (std::isnan(squared))
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+  return std::sqrt(squared);
+}
+
+Box3 boundsOf(const Points& x, const std::vector<Index>& nodes)
+{
+  Box3 box;
+  for (const Index node : nodes)
+  {
+    box.extend(x[node]);
+  }
+  return box;
+}
+}  // namespace
+
+class ToolContact::Impl
+{
+ public:
+  Impl(const TissueBody& tissue, const RigidBodyShape& tool, std::unique_ptr<DistanceField> field,
+       const ToolContactOptions& options)
+      : tissue_(tissue),
+        options_(options),
+        field_(std::move(field)),
+        no_depth_(tissue.node_count, std::numeric_limits<double>::quiet_NaN()),
+        tool_(tool),
+        tool_in_tissue_(tissue, tool_, options),
+        tissue_in_tool_(tissue, tool_, options)
+  {}
+
+  void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
+  bool active() const { return !selection_.empty(); }
+  const std::vector<ContactSample>& samplesAt(const Points& x);
+  const std::vector<double>& depth() const;
+  ContactTimes takeTimes() { return std::exchange(times_, ContactTimes()); }
+
+ private:
+  void select();
+  void widenTo(double motion);
+  void ensureField();
+  void collect();
+  const Vec3* bodyIn(const Points& x) const { return x.data() + tissue_.first_node; }
+
+  TissueBody tissue_;
+  ToolContactOptions options_;
+  std::unique_ptr<DistanceField> field_;
+  std::vector<double> no_depth_;
+  RigidBodyShape tool_;
+  ToolInTissue tool_in_tissue_;
+  TissueInTool tissue_in_tool_;
+
+  Points start_;         ///< the body at the start of the step
+  Box3 swept_;           ///< the tool before and after the step
+  double margin_ = 0.0;  ///< how far the body may move before the selection is too small, m
+  BoxSelection selection_;
+  bool refresh_field_ = false;  ///< march anew before the field is read
+  bool field_checked_ = false;  ///< all nodes of the selection are known to have their depth
+
+  Points body_;  ///< the body where samples_ were taken
+  bool have_samples_ = false;
+  std::vector<ContactSample> samples_;
+  ContactTimes times_;
+};
+
+void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
+                                  bool refresh)
+{
+  const ScopedTimer timer(times_.detect);
+  constexpr double kMarginOfRadius = 0.5;
+  body_.assign(bodyIn(x), bodyIn(x) + tissue_.node_count);
+  const double last_motion = start_.empty() ? 0.0 : largestMotion(start_, body_);
+  start_.swap(body_);
+  body_.resize(start_.size());
+  have_samples_ = false;
+  samples_.clear();
+
+  tissue_in_tool_.place(X_WT_before);
+  swept_ = tissue_in_tool_.bounds();
+  tissue_in_tool_.place(X_WT);
+  swept_.extend(tissue_in_tool_.bounds());
+  // Half a radius and what the body moved last step; more is met by widenTo().
+  margin_ =
+      kMarginOfRadius * tool_.innerRadius() + (std::isfinite(last_motion) ? last_motion : 0.0);
+  refresh_field_ = refresh;
+  if (refresh && !options_.lazy_field)
+  {
+    const ScopedTimer field_timer(times_.field);
+    field_->march(start_);
+    refresh_field_ = false;
+  }
+  Box3 reach = swept_;
+  reach.grow(margin_);
+  selection_.clear();
+  if (boundsOf(start_, tissue_.surface->nodes).overlaps(reach))
+  {
+    tool_in_tissue_.place(X_WT);
+    select();
+  }
+}
+
+void ToolContact::Impl::select()
+{
+  Box3 reach = swept_;
+  reach.grow(margin_);
+  selection_.select(start_, *tissue_.tets, *tissue_.surface, reach);
+  tissue_in_tool_.lagAreas(start_, selection_);
+  field_checked_ = false;
+}
+
+// The energy stays the same function of x: areas and depths are those of the start whatever the
+// selection, so more elements only add what had been out of reach.
+void ToolContact::Impl::widenTo(double motion)
+{
+  margin_ = std::isfinite(motion) ? 2.0 * motion : std::numeric_limits<double>::max() / 4.0;
+  select();
+}
+
+void ToolContact::Impl::ensureField()
+{
+  const std::vector<double>& known = depth();
+  const bool complete = std::all_of(selection_.tetNodes().begin(), selection_.tetNodes().end(),
+                                    [&](Index node) { return !std::isnan(known[node]); });
+  if (refresh_field_ || !complete)
+  {
+    const ScopedTimer timer(times_.field);
+    field_->marchUntil(start_, selection_.tetNodes());
+  }
+  refresh_field_ = false;
+  field_checked_ = true;
+}
+
+const std::vector<ContactSample>& ToolContact::Impl::samplesAt(const Points& x)
+{
+  const std::size_t bytes = body_.size() * sizeof(Vec3);
+  if (!active() || (have_samples_ && std::memcmp(body_.data(), bodyIn(x), bytes) == 0))
+  {
+    return samples_;
+  }
+  std::copy(bodyIn(x), bodyIn(x) + tissue_.node_count, body_.begin());
+  samples_.clear();
+  collect();
+  have_samples_ = true;
+  return samples_;
+}
+
+void ToolContact::Impl::collect()
+{
+  Timer timer;
+  const double motion = largestMotion(start_, body_);
+  if (motion > margin_)
+  {
+    widenTo(motion);
+  }
+  const bool hosted = tool_in_tissue_.findHosts(body_, selection_.tets());
+  times_.detect += timer.restart();
+  if (hosted && !field_checked_)
+  {
+    ensureField();
+    timer.restart();
+  }
+  if (hosted)
+  {
+    tool_in_tissue_.addSamples(body_, *field_, samples_);
+  }
+  tissue_in_tool_.addSamples(body_, samples_);
+  times_.respond += timer.seconds();
+}
+
+const std::vector<double>& ToolContact::Impl::depth() const
+{
+  return field_->depth().size() == no_depth_.size() ? field_->depth() : no_depth_;
+}
+
+ToolContact::ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
+                         std::unique_ptr<DistanceField> field, const ToolContactOptions& options)
+    : impl_(std::make_unique<Impl>(tissue, tool, std::move(field), options))
+{}
+
+ToolContact::~ToolContact() = default;
+
+void ToolContact::beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
+                            double /*step_s*/, bool refresh)
+{
+  impl_->beginStep(x, X_WT_before, X_WT, refresh);
+}
+
+bool ToolContact::active() const
+{
+  return impl_->active();
+}
+
+double ToolContact::value(const Points& x)
+{
+  return contactEnergy(impl_->samplesAt(x));
+}
+
+void ToolContact::addGradient(const Points& x, Points& gradient)
+{
+  addContactGradient(impl_->samplesAt(x), gradient);
+}
+
+void ToolContact::addHessian(const Points& x, BlockMatrix& hessian)
+{
+  addContactHessian(impl_->samplesAt(x), hessian);
+}
+
+const std::vector<ContactSample>& ToolContact::samples(const Points& x)
+{
+  return impl_->samplesAt(x);
+}
+
+const std::vector<double>& ToolContact::depth() const
+{
+  return impl_->depth();
+}
+
+ContactTimes ToolContact::takeTimes()
+{
+  return impl_->takeTimes();
+}
+
+}  // namespace soft_tissue
