@@ -109,7 +109,8 @@ std::string describeSchema()
       "Unknown keys, keys that stand twice and values out of range are errors that name the file, "
       "the key, the value and what is allowed.\n\n"
       "File names are paths relative to the scene file's folder, absolute paths, "
-      "`package://PACKAGE/FILE` or `file:///PATH`.\n";
+      "`package://PACKAGE/FILE` or `file:///PATH`.\n\n"
+      "Scenes to start from are in `config/scenes`.\n";
   std::vector<const SectionBase*> told;
   describe(sceneSection(), told, out);
   describe(presetsSection(), told, out);

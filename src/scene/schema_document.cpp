@@ -124,6 +124,8 @@ std::string resolveFile(const Item& item, const std::string& name)
 {
   namespace fs = std::filesystem;
   const auto startsWith = [&](const char* prefix) { return name.rfind(prefix, 0) == 0; };
+  const std::string about = item.scalar() == name ? "" : "needs " + name + ": ";
+  const auto reject = [&](const std::string& complaint) { item.rejectValue(about + complaint); };
   fs::path path;
   if (startsWith("package://"))
   {
@@ -131,16 +133,16 @@ std::string resolveFile(const Item& item, const std::string& name)
     const std::string package = rest.substr(0, rest.find('/'));
     if (package.empty() || package.size() + 1 >= rest.size())
     {
-      item.rejectValue("must be package://PACKAGE/FILE");
+      reject("must be package://PACKAGE/FILE");
     }
     if (item.document().resolver == nullptr)
     {
-      item.rejectValue("package:// names can't be found without ROS; use a path");
+      reject("package:// names can't be found without ROS; use a path");
     }
     const std::string folder = item.document().resolver(package);
     if (folder.empty())
     {
-      item.rejectValue("ROS finds no package '" + package + "'");
+      reject("ROS finds no package '" + package + "'");
     }
     path = fs::path(folder) / rest.substr(package.size() + 1);
   }
@@ -149,12 +151,12 @@ std::string resolveFile(const Item& item, const std::string& name)
     path = name.substr(7);
     if (!path.is_absolute())
     {
-      item.rejectValue("must be file:///ABSOLUTE/PATH");
+      reject("must be file:///ABSOLUTE/PATH");
     }
   }
   else if (name.find("://") != std::string::npos)
   {
-    item.rejectValue("must be a path, package://PACKAGE/FILE or file:///PATH");
+    reject("must be a path, package://PACKAGE/FILE or file:///PATH");
   }
   else
   {
@@ -164,15 +166,15 @@ std::string resolveFile(const Item& item, const std::string& name)
   std::error_code ignored;
   if (!fs::exists(path, ignored))
   {
-    item.rejectValue("no such file: " + path.string());
+    reject("no such file: " + path.string());
   }
   if (!fs::is_regular_file(path, ignored))
   {
-    item.rejectValue("is a folder or device, must be a file: " + path.string());
+    reject("is a folder or device, must be a file: " + path.string());
   }
   if (!std::ifstream(path).good())
   {
-    item.rejectValue("can't be read: " + path.string());
+    reject("can't be read: " + path.string());
   }
   return path.string();
 }

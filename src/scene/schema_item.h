@@ -89,7 +89,8 @@ Document readDocument(const std::string& file, PackageResolver resolver);
 
 /**
  * Turns a file name in a document into an absolute path of a readable file: package://package/rest,
- * file:///path, an absolute path, or a path relative to the document's folder.
+ * file:///path, an absolute path, or a path relative to the document's folder. The item is what
+ * names the file, or what needs it.
  * @throws Error naming the item and the path it came to
  */
 std::string resolveFile(const Item& item, const std::string& name);

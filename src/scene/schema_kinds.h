@@ -143,7 +143,7 @@ template <class V>
 Kind<std::vector<V>> listOf(const Kind<V>& kind, std::size_t at_least = 0, bool or_one = false)
 {
   Kind<std::vector<V>> result;
-  result.type = (or_one ? kind.type + " or list of " : "list of ") + kind.type;
+  result.type = (or_one ? kind.type + " or list of " : "list of ") + kind.type + "s";
   result.allowed = at_least > 0 && !or_one ? "at least " + std::to_string(at_least) : "";
   result.read = [kind, at_least, or_one](const Item& item) {
     std::vector<V> values;

@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "bad_scene.h"
+
+namespace soft_tissue
+{
+namespace
+{
+const char* const kCapsule = "{capsule: {radius_m: 0.004, length_m: 0.02}}";
+
+std::vector<BadScene> badNames()
+{
+  return {
+      {"name: liver", "name: 2nd_liver",
+       "tissues[0].name = 2nd_liver, must be a name: a letter, then letters, digits or _"},
+      {"name: liver", "name: my liver",
+       "tissues[0].name = my liver, must be a name: a letter, then letters, digits or _"},
+      {"name: liver", "name: l\xc3\xa9ver",
+       "tissues[0].name = l\xc3\xa9ver, must be a name: a letter, then letters, digits or _"},
+      {"name: kidney", "name: liver",
+       "tissues[1].name = liver, is tissues[0].name too, must be new"},
+      {"name: hook", "name: probe", "tools[1].name = probe, is tools[0].name too, must be new"},
+      {"name: hook", "name: kidney", "tools[1].name = kidney, is tissues[1].name too, must be new"},
+      {"[liver, probe]", "[lever, probe]",
+       "contacts[0].between = [lever, probe], there is no tissue or tool 'lever'"},
+      {"[liver, probe]", "[liver, proof]",
+       "contacts[0].between = [liver, proof], there is no tissue or tool 'proof'"},
+      {"[liver, probe]", "[hook, probe]",
+       "contacts[0].between = [hook, probe], must be a tissue and a tool; tools don't touch each "
+       "other"},
+      {"[liver, probe]", "liver",
+       "contacts[0].between = liver, must be a list of 2 names: a tissue and a tool"},
+      {"[liver, probe]", "[liver, probe, hook]",
+       "contacts[0].between = [liver, probe, hook], must be a list of 2 names: a tissue and a "
+       "tool"},
+      {"outputs:", "  - between: [probe, liver]\noutputs:",
+       "contacts[1].between = [probe, liver], is the pair of contacts[0] too, must be new"},
+      {"{tag: 2, young_modulus_pa: 3.0e4}",
+       "{tag: 2, young_modulus_pa: 1}, {tag: 2, poisson_ratio: 0}",
+       "tissues[0].regions[1].tag = 2, is the tag of regions[0], must be new"},
+      {"stress: false", "stress: maybe", "outputs.stress = maybe, must be one of true, false"},
+      {"linear: auto", "linear: fastest",
+       "solver.linear = fastest, must be one of auto, pcg, cholesky"},
+      {"linear: auto", "stepper: rk4",
+       "solver.stepper = rk4, must be one of implicit_euler, quasi_static"},
+      {"response: segment", "response: [segment]",
+       "contacts[0].response = [segment], must be one of point, segment"},
+      {"{method: cffm}", "{method: magic}", "tissues[0].field.method = magic, must be cffm"},
+      {"{method: cffm}", "{refresh: never}",
+       "tissues[0].field.refresh = never, must be one of carried, lazy, full"},
+      {"{young_modulus_pa: 3000,", "{model: jelly, young_modulus_pa: 3000,",
+       "tissues[0].material.model = jelly, must be one of neo_hookean, corotated"},
+      {"length_unit: m}\n    material: {young_modulus_pa: 3000",
+       "length_unit: inch}\n    material: "
+       "{young_modulus_pa: 3000",
+       "tissues[0].mesh.length_unit = inch, must be one of m, cm, mm, um"},
+      {"topic: servo_cp", "topic: /servo_cp",
+       "tools[1].pose_source.topic = /servo_cp, must be a relative topic name: names joined by /"},
+      {"topic: servo_cp", "topic: arm//servo_cp",
+       "tools[1].pose_source.topic = arm//servo_cp, must be a relative topic name: names joined by "
+       "/"},
+      {"topic: servo_cp", "tf: /tip",
+       "tools[1].pose_source.tf = /tip, must be a tf frame: no leading / and no blanks"},
+      {kCapsule, "{urdf: {file: mesh.msh, links: []}}",
+       "tools[0].shape.urdf.links: is an empty list, must have at least 1"},
+      {kCapsule, "{urdf: {file: mesh.msh}}",
+       "tools[0].shape.urdf: has none, must have exactly one of link, links"},
+  };
+}
+
+std::vector<BadScene> badFiles()
+{
+  return {
+      {"mesh: {file: mesh.msh, length_unit: m}\n", "mesh: {file: gone.msh, length_unit: m}\n",
+       "tissues[0].mesh.file = gone.msh, no such file: DIR/gone.msh"},
+      {"mesh: {file: mesh.msh, length_unit: m}\n", "mesh: {file: a/../gone.msh, length_unit: m}\n",
+       "tissues[0].mesh.file = a/../gone.msh, no such file: DIR/gone.msh"},
+      {"mesh: {file: mesh.msh, length_unit: m}\n", "mesh: {file: folder, length_unit: m}\n",
+       "tissues[0].mesh.file = folder, is a folder or device, must be a file: DIR/folder"},
+      {"mesh: {file: mesh.msh, length_unit: m}\n", "mesh: {file: '', length_unit: m}\n",
+       "tissues[0].mesh.file = '', must be a file: path, package://PACKAGE/FILE or file:///PATH"},
+      {"mesh: {file: mesh.msh, length_unit: m}\n", "mesh: {file: [mesh.msh], length_unit: m}\n",
+       "tissues[0].mesh.file = [mesh.msh], must be a file: path, package://PACKAGE/FILE or "
+       "file:///PATH"},
+      {"mesh: {file: mesh.msh", "mesh: {file: http://example.org/a.msh",
+       "tissues[0].mesh.file = http://example.org/a.msh, must be a path, package://PACKAGE/FILE or "
+       "file:///PATH"},
+      {"mesh: {file: mesh.msh", "mesh: {file: file://mesh.msh",
+       "tissues[0].mesh.file = file://mesh.msh, must be file:///ABSOLUTE/PATH"},
+      {"mesh: {file: mesh.msh", "mesh: {file: package://mesh.msh",
+       "tissues[0].mesh.file = package://mesh.msh, must be package://PACKAGE/FILE"},
+      {"mesh: {file: mesh.msh", "mesh: {file: package://no_such_package/a.msh",
+       "tissues[0].mesh.file = package://no_such_package/a.msh, ROS finds no package "
+       "'no_such_package'"},
+      {kCapsule, "{mesh: {file: gone.stl, length_unit: m}}",
+       "tools[0].shape.mesh.file = gone.stl, no such file: DIR/gone.stl"},
+      {kCapsule, "{urdf: {file: gone.urdf, link: tip}}",
+       "tools[0].shape.urdf.file = gone.urdf, no such file: DIR/gone.urdf"},
+      {"outputs:", "materials: gone.yaml\noutputs:",
+       "materials = gone.yaml, no such file: DIR/gone.yaml"},
+  };
+}
+
+#define NOT_AVAILABLE "not available in version 0.1; see docs/limits.md"
+
+std::vector<BadScene> notAvailable()
+{
+  return {
+      {"outputs:", "membranes: [{name: skin}]\noutputs:", "membranes: " NOT_AVAILABLE},
+      {"outputs:", "obstacles: [{name: table}]\noutputs:", "obstacles: " NOT_AVAILABLE},
+      {"outputs:", "obstacles:\noutputs:", "obstacles: " NOT_AVAILABLE},
+      {"    field: {method: cffm}", "    keyframes: [{motion: []}]",
+       "tissues[0].keyframes: " NOT_AVAILABLE},
+      {"    field: {method: cffm}", "    element: tet10", "tissues[0].element: " NOT_AVAILABLE},
+      {"linear: auto", "budget_ms: 4.0", "solver.budget_ms: " NOT_AVAILABLE},
+      {"friction: 0.1", "max_penetration_m: 0.0005",
+       "contacts[0].max_penetration_m: " NOT_AVAILABLE},
+      {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
+      {"[liver, probe]", "[liver, kidney]",
+       "contacts[0].between = [liver, kidney], contact between tissues is " NOT_AVAILABLE},
+      {"[liver, probe]", "[liver, liver]",
+       "contacts[0].between = [liver, liver], contact between tissues is " NOT_AVAILABLE},
+      {"response: segment", "response: auto",
+       "contacts[0].response = auto, " NOT_AVAILABLE "; must be point, segment"},
+      {"{method: cffm}", "{method: exact_marching}",
+       "tissues[0].field.method = exact_marching, " NOT_AVAILABLE "; must be cffm"},
+      {"linear: auto", "linear: multigrid",
+       "solver.linear = multigrid, " NOT_AVAILABLE "; must be auto, pcg, cholesky"},
+      {"linear: auto", "stepper: bdf2",
+       "solver.stepper = bdf2, " NOT_AVAILABLE "; must be implicit_euler, quasi_static"},
+      {"{young_modulus_pa: 3000,", "{model: linear, young_modulus_pa: 3000,",
+       "tissues[0].material.model = linear, " NOT_AVAILABLE "; must be neo_hookean, corotated"},
+      {"{topic: servo_cp}", "marker", "tools[1].pose_source = marker, " NOT_AVAILABLE},
+      {"{topic: servo_cp}", "{marker: true}", "tools[1].pose_source.marker: " NOT_AVAILABLE},
+      {kCapsule, "{urdf: {file: mesh.msh, links: [a, b]}}",
+       "tools[0].shape.urdf.links = [a, b], more than one link is " NOT_AVAILABLE},
+  };
+}
+
+class BadSceneNamesTest : public testing::TestWithParam<BadScene>
+{
+ protected:
+  SceneFolder folder_;
+};
+
+TEST_P(BadSceneNamesTest, IsAnsweredWithFileKeyValueAndWhatIsAllowed)
+{
+  const std::string text = replaced(kGood, GetParam().from, GetParam().to);
+  ASSERT_NE(text, kGood);
+  EXPECT_EQ(complaintAbout(folder_, text), std::string("DIR/scene.yaml: ") + GetParam().complaint);
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, BadSceneNamesTest, testing::ValuesIn(badNames()));
+INSTANTIATE_TEST_SUITE_P(Files, BadSceneNamesTest, testing::ValuesIn(badFiles()));
+INSTANTIATE_TEST_SUITE_P(NotAvailable, BadSceneNamesTest, testing::ValuesIn(notAvailable()));
+
+TEST(BadSceneResolverTest, PackagesCantBeFoundWithoutAResolver)
+{
+  const SceneFolder folder;
+  const std::string text = replaced(kGood, "file: mesh.msh", "file: package://pkg/mesh.msh");
+  try
+  {
+    loadSceneConfig(folder.write("scene.yaml", text), nullptr);
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(replaced(error.what(), folder.path(), "DIR"),
+              "DIR/scene.yaml: tissues[0].mesh.file = package://pkg/mesh.msh, package:// names "
+              "can't be found without ROS; use a path");
+  }
+}
+
+}  // namespace
+}  // namespace soft_tissue
