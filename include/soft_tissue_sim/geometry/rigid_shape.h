@@ -5,40 +5,15 @@
 #include <vector>
 
 #include "soft_tissue_sim/base/types.h"
+#include "soft_tissue_sim/geometry/box3.h"
 
 namespace soft_tissue
 {
-/** Axis-aligned box, metres; empty while min > max. */
-struct Box3
-{
-  Vec3 min = Vec3::Constant(1e300);
-  Vec3 max = Vec3::Constant(-1e300);
-
-  void extend(const Vec3& p)
-  {
-    min = min.cwiseMin(p);
-    max = max.cwiseMax(p);
-  }
-  void grow(double margin)
-  {
-    min.array() -= margin;
-    max.array() += margin;
-  }
-  bool overlaps(const Box3& other) const
-  {
-    return (min.array() <= other.max.array()).all() && (other.min.array() <= max.array()).all();
-  }
-  bool contains(const Vec3& p) const
-  {
-    return (min.array() <= p.array()).all() && (p.array() <= max.array()).all();
-  }
-};
-
 /** Signed distance to a solid's surface, negative inside, with its gradient. */
 struct SignedDistance
 {
-  double distance = 0.0;            ///< m
-  Vec3 normal = Vec3::UnitZ();      ///< unit gradient: points away from the solid
+  double distance = 0.0;        ///< m
+  Vec3 normal = Vec3::UnitZ();  ///< unit gradient: points away from the solid
 };
 
 /** A triangulated surface piece of a solid, for use as contact quadrature and for display. */
@@ -63,38 +38,44 @@ class RigidShape
   /** Whether every chord between two points of the solid stays inside it. */
   virtual bool convex() const = 0;
 
-  /** Half the smallest width: how deep a point can be inside. */
+  /** Radius of the largest ball that fits inside, m: how deep a point can be (mesh: from below). */
   virtual double innerRadius() const = 0;
 
-  /** Its surface with no edge longer than `max_edge` (m) where the shape lets us choose; nodes lie on the surface. */
+  /**
+   * Its closed surface, nodes on the surface itself, no edge longer than `max_edge` (m).
+   * @throws Error unless max_edge > 0, or if that would take more than four million triangles
+   */
   virtual SurfaceMesh surface(double max_edge) const = 0;
 };
 
 /** @throws Error unless the sizes are positive and finite. */
 std::shared_ptr<const RigidShape> makeSphere(double radius);
-/** Capsule along z, its straight part of this length centred at the origin; length 0 is a sphere. */
+/** Capsule along z, its straight part of this length centred at the origin; length 0 is a sphere.
+ */
 std::shared_ptr<const RigidShape> makeCapsule(double radius, double length);
 /** Box centred at the origin with these full edge lengths. */
 std::shared_ptr<const RigidShape> makeBox(const Vec3& size);
 /**
- * Solid bounded by a closed, consistently oriented triangle mesh (BVH closest point, sign by angle-weighted
- * pseudonormals). @throws Error for an open or non-manifold surface, naming `what`
+ * Solid bounded by a closed, consistently oriented triangle mesh (BVH closest point, sign by
+ * angle-weighted pseudonormals). @throws Error for an open or non-manifold surface, naming `what`
  */
-std::shared_ptr<const RigidShape> makeMeshShape(const Points& nodes, const std::vector<Triangle>& triangles,
+std::shared_ptr<const RigidShape> makeMeshShape(const Points& nodes,
+                                                const std::vector<Triangle>& triangles,
                                                 const std::string& what);
 
 /** Several solids fixed to one frame: their union. */
 class RigidBodyShape
 {
  public:
-  /** Adds a solid whose frame has pose X_TS in the body frame T. */
+  /** Adds a solid whose frame has pose X_TS in the body frame T. @throws Error unless X_TS is rigid
+   */
   void add(std::shared_ptr<const RigidShape> shape, const Pose& X_TS);
 
   bool empty() const { return parts_.empty(); }
-  /** Distance to the nearest part, body frame. */
+  /** Least distance to a part, body frame; +infinity while empty. */
   SignedDistance distance(const Vec3& p_T) const;
   Box3 bounds() const;
-  double innerRadius() const;  ///< the smallest of its parts
+  double innerRadius() const;  ///< the smallest of its parts, m; 0 while empty
   bool convex() const { return parts_.size() == 1 && parts_[0].shape->convex(); }
   /** Surfaces of all parts, body frame; nodes strictly inside another part are kept. */
   SurfaceMesh surface(double max_edge) const;
