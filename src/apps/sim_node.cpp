@@ -16,7 +16,7 @@ int main(int argc, char** argv)
     const NodeParams params = readNodeParams(private_node);
     const int processors = static_cast<int>(std::thread::hardware_concurrency());
     soft_tissue::setThreadCount(params.threads > 0 ? params.threads : processors);
-    SimNode node(private_node, params, loadScene(params.scene));
+    SimNode node(private_node, params, buildScene(loadConfig(params.scene)));
     ROS_INFO_STREAM("simulating " << params.scene);
     ros::spin();
     return node.failed() ? 1 : 0;

@@ -91,16 +91,17 @@ double deepest(const std::vector<double>& depth)
   return largest;
 }
 
-Marker fieldNodes(const TissueInfo& info, const soft_tissue::TissueState& state)
+Marker fieldNodes(const TissueInfo& info, const soft_tissue::TissueState& state,
+                  const std::vector<double>& depth)
 {
   Marker marker = makeMarker(info.name + "/distance/nodes", Marker::POINTS);
   marker.scale.x = marker.scale.y = kFieldNodeSize;
-  const double depth_max = deepest(state.depth);
-  for (std::size_t node = 0; node < state.depth.size(); ++node)
+  const double depth_max = deepest(depth);
+  for (std::size_t node = 0; node < depth.size(); ++node)
   {
-    if (!std::isnan(state.depth[node]))
+    if (!std::isnan(depth[node]))
     {
-      addCorner(marker, state.positions[node], depthColour(state.depth[node] / depth_max));
+      addCorner(marker, state.positions[node], depthColour(depth[node] / depth_max));
     }
   }
   return marker;
@@ -191,7 +192,7 @@ MarkerBuilder::MarkerBuilder(const SceneInfo& info, const MarkerOptions& options
   }
 }
 
-visualization_msgs::MarkerArray MarkerBuilder::build(const Snapshot& snapshot,
+visualization_msgs::MarkerArray MarkerBuilder::build(const Snapshot& snapshot, TissueDepths& depths,
                                                      const Stamp& stamp) const
 {
   visualization_msgs::MarkerArray array;
@@ -201,12 +202,13 @@ visualization_msgs::MarkerArray MarkerBuilder::build(const Snapshot& snapshot,
     const soft_tissue::TissueState& state = snapshot.tissues[i];
     array.markers.push_back(tissueSurface(info, state, options_));
     array.markers.push_back(fixedNodes(info, state));
-    if (!state.depth.empty())
+    if (depths.has(i))
     {
-      array.markers.push_back(fieldNodes(info, state));
+      const std::vector<double>& depth = depths.depth(i, snapshot);
+      array.markers.push_back(fieldNodes(info, state, depth));
       Marker slice = makeMarker(info.name + "/distance/slice", Marker::TRIANGLE_LIST);
-      addSlice(slice, state.positions, info.rest.tets, state.depth, options_.slice_axis,
-               slice_offset_m_[i], deepest(state.depth));
+      addSlice(slice, state.positions, info.rest.tets, depth, options_.slice_axis,
+               slice_offset_m_[i], deepest(depth));
       array.markers.push_back(slice);
     }
   }

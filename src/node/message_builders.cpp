@@ -87,15 +87,14 @@ TissueState stateMessage(const SceneInfo& info, const Snapshot& snapshot, std::s
   return message;
 }
 
-TissueField fieldMessage(const SceneInfo& info, const Snapshot& snapshot, std::size_t tissue,
-                         const Stamp& stamp)
+TissueField fieldMessage(const SceneInfo& info, std::size_t tissue, std::uint64_t step,
+                         const std::vector<double>& depth, const Stamp& stamp)
 {
-  const std::vector<double>& depth = snapshot.tissues[tissue].depth;
   TissueField message;
   setHeader(message.header, stamp);
   message.name = info.tissue_names[tissue];
   message.topology_id = info.topology_ids[tissue];
-  message.step = snapshot.report.step;
+  message.step = step;
   message.depths.assign(depth.begin(), depth.end());
   return message;
 }

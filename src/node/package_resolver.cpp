@@ -2,19 +2,11 @@
 
 #include <ros/package.h>
 
-#include "soft_tissue_sim/base/error.h"
-
 namespace soft_tissue_sim
 {
 std::string findPackage(const std::string& package)
 {
-  const std::string folder = ros::package::getPath(package);
-  if (folder.empty())
-  {
-    throw soft_tissue::Error("package '" + package +
-                             "' is not known to rospack (ROS_PACKAGE_PATH)");
-  }
-  return folder;
+  return ros::package::getPath(package);
 }
 
 }  // namespace soft_tissue_sim

@@ -37,7 +37,13 @@ fs::path localPath(const std::string& uri, const std::string& folder)
     {
       throw soft_tissue::Error("'" + uri + "' is not of the form package://PACKAGE/PATH");
     }
-    return fs::path(findPackage(rest.substr(0, slash))) / rest.substr(slash + 1);
+    const std::string package = rest.substr(0, slash);
+    const std::string package_folder = findPackage(package);
+    if (package_folder.empty())
+    {
+      throw soft_tissue::Error("'" + uri + "': rospack knows no package '" + package + "'");
+    }
+    return fs::path(package_folder) / rest.substr(slash + 1);
   }
   if (startsWith(uri, file_scheme))
   {

@@ -9,9 +9,13 @@
 
 namespace soft_tissue_sim
 {
-soft_tissue::Scene loadScene(const std::string& path)
+soft_tissue::SceneConfig loadConfig(const std::string& path)
 {
-  soft_tissue::SceneConfig config = soft_tissue::loadSceneConfig(path, &findPackage);
+  return soft_tissue::loadSceneConfig(path, &findPackage);
+}
+
+soft_tissue::Scene buildScene(soft_tissue::SceneConfig config)
+{
   const ScratchFolder scratch;
   for (soft_tissue::ToolConfig& tool : config.tools)
   {
@@ -27,7 +31,8 @@ soft_tissue::Scene loadScene(const std::string& path)
     }
     catch (const soft_tissue::Error& error)
     {
-      throw soft_tissue::Error("scene " + path + ": tool '" + tool.name + "': " + error.what());
+      throw soft_tissue::Error("scene " + config.file + ": tool '" + tool.name +
+                               "': " + error.what());
     }
     tool.urdf.reset();
   }

@@ -4,10 +4,11 @@
 
 namespace soft_tissue_sim
 {
-SceneTopics::SceneTopics(ros::NodeHandle& node, const SceneInfo& info, const MarkerOptions& options,
-                         bool publish_clock, const std::string& world_frame,
+SceneTopics::SceneTopics(ros::NodeHandle& node, const SceneInfo& info, TissueDepths& depths,
+                         const MarkerOptions& options, bool publish_clock,
+                         const std::string& world_frame,
                          const ros::SubscriberStatusCallback& on_subscriber)
-    : builder_(info, options), world_frame_(world_frame)
+    : builder_(info, options), depths_(depths), world_frame_(world_frame)
 {
   stats_ = node.advertise<SimStats>("stats", 1, on_subscriber);
   markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", 2, on_subscriber);
@@ -39,7 +40,7 @@ void SceneTopics::publishMarkers(const Frame& frame)
     markers_.publish(MarkerBuilder::deleteAll(stamp));
   }
   ++marker_arrays_built_;
-  markers_.publish(builder_.build(frame.snapshot, stamp));
+  markers_.publish(builder_.build(frame.snapshot, depths_, stamp));
 }
 
 void SceneTopics::publishClock(const Frame& frame) const

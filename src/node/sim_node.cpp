@@ -1,6 +1,5 @@
 #include "soft_tissue_sim/node/sim_node.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "soft_tissue_sim/base/error.h"
@@ -11,12 +10,6 @@ namespace
 {
 using Kind = soft_tissue::PoseSourceConfig::Kind;
 
-bool anyContact(const soft_tissue::SceneConfig& config, const std::string& tissue)
-{
-  return std::any_of(config.contacts.begin(), config.contacts.end(),
-                     [&](const soft_tissue::ContactConfig& c) { return c.tissue == tissue; });
-}
-
 }  // namespace
 
 SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene)
@@ -25,10 +18,11 @@ SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tis
       info_(scene),
       config_(scene.config()),
       loop_(std::move(scene), params.loop, [this](const std::string& what) { onFailure(what); }),
+      depths_(info_, config_),
       publisher_(loop_.frames())
 {
   addInputs(config_.tools);
-  addOutputs(config_);
+  addOutputs();
   diagnostics_timer_ = node_.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
   publisher_.start();
@@ -81,13 +75,13 @@ void SimNode::addInputs(const std::vector<soft_tissue::ToolConfig>& tools)
                                        [this](const ros::WallTimerEvent&) { pollInputs(); });
 }
 
-void SimNode::addOutputs(const soft_tissue::SceneConfig& config)
+void SimNode::addOutputs()
 {
   const std::string& world = params_.world_frame;
   const RateLimits& rates = params_.rates;
   const ros::SubscriberStatusCallback on_subscriber =
       [this](const ros::SingleSubscriberPublisher&) { publisher_.republish(); };
-  scene_topics_ = std::make_unique<SceneTopics>(node_, info_, params_.markers,
+  scene_topics_ = std::make_unique<SceneTopics>(node_, info_, depths_, params_.markers,
                                                 params_.publish_clock, world, on_subscriber);
   diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, gates_);
   publisher_.addStream(0.0, [this](const Frame& frame) { diagnostics_->note(frame); });
@@ -102,9 +96,8 @@ void SimNode::addOutputs(const soft_tissue::SceneConfig& config)
   }
   for (std::size_t tissue = 0; tissue < info_.tissues.size(); ++tissue)
   {
-    const bool has_field = anyContact(config, info_.tissue_names[tissue]);
     TissueTopics& topics =
-        tissue_topics_.emplace_back(node_, info_, tissue, has_field, world, on_subscriber);
+        tissue_topics_.emplace_back(node_, info_, tissue, depths_, world, on_subscriber);
     publisher_.addStream(rates.state_hz,
                          [&topics](const Frame& frame) { topics.publishState(frame); });
     publisher_.addStream(rates.field_hz,

@@ -3,14 +3,14 @@
 namespace soft_tissue_sim
 {
 TissueTopics::TissueTopics(ros::NodeHandle& node, const SceneInfo& info, std::size_t tissue,
-                           bool has_field, const std::string& world_frame,
+                           TissueDepths& depths, const std::string& world_frame,
                            const ros::SubscriberStatusCallback& on_subscriber)
-    : info_(info), tissue_(tissue), world_frame_(world_frame)
+    : info_(info), depths_(depths), tissue_(tissue), world_frame_(world_frame)
 {
   const std::string& name = info.tissue_names[tissue];
   mesh_ = node.advertise<TissueMesh>(name + "/mesh", 1, true);
   state_ = node.advertise<TissueState>(name + "/state", 1, on_subscriber);
-  if (has_field)
+  if (depths.has(tissue))
   {
     field_ = node.advertise<TissueField>(name + "/field", 1, on_subscriber);
   }
@@ -29,7 +29,9 @@ void TissueTopics::publishField(const Frame& frame) const
 {
   if (field_ && field_.getNumSubscribers() > 0)
   {
-    field_.publish(fieldMessage(info_, frame.snapshot, tissue_, {frame.stamp, world_frame_}));
+    field_.publish(fieldMessage(info_, tissue_, frame.snapshot.report.step,
+                                depths_.depth(tissue_, frame.snapshot),
+                                {frame.stamp, world_frame_}));
   }
 }
 

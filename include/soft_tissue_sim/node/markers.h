@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/node/message_builders.h"
+#include "soft_tissue_sim/node/tissue_depths.h"
 
 namespace soft_tissue_sim
 {
@@ -34,7 +35,7 @@ class MarkerBuilder
  public:
   MarkerBuilder(const SceneInfo& info, const MarkerOptions& options);
 
-  visualization_msgs::MarkerArray build(const soft_tissue::Snapshot& snapshot,
+  visualization_msgs::MarkerArray build(const soft_tissue::Snapshot& snapshot, TissueDepths& depths,
                                         const Stamp& stamp) const;
 
   /** The array that removes all markers. */

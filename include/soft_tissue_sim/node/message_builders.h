@@ -37,8 +37,9 @@ struct Stamp
 TissueMesh meshMessage(const SceneInfo& info, std::size_t tissue, const Stamp& stamp);
 TissueState stateMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,
                          std::size_t tissue, const Stamp& stamp);
-TissueField fieldMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,
-                         std::size_t tissue, const Stamp& stamp);
+/** @param depth  per node, m */
+TissueField fieldMessage(const SceneInfo& info, std::size_t tissue, std::uint64_t step,
+                         const std::vector<double>& depth, const Stamp& stamp);
 geometry_msgs::PoseStamped toolPoseMessage(const soft_tissue::ToolState& tool, const Stamp& stamp);
 /** Force of tissue on the tool, about the tool frame's origin, in tool axes; frame_id is the tool.
  */

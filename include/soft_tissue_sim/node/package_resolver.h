@@ -4,10 +4,7 @@
 
 namespace soft_tissue_sim
 {
-/**
- * Folder of a ROS package, asked from rospack: a soft_tissue::PackageResolver.
- * @throws soft_tissue::Error if rospack does not know the package
- */
+/** Folder of a ROS package, asked from rospack, or empty: a soft_tissue::PackageResolver. */
 std::string findPackage(const std::string& package);
 
 }  // namespace soft_tissue_sim

@@ -16,8 +16,8 @@ class SceneTopics
 {
  public:
   /** @param on_subscriber  called when somebody subscribes */
-  SceneTopics(ros::NodeHandle& node, const SceneInfo& info, const MarkerOptions& options,
-              bool publish_clock, const std::string& world_frame,
+  SceneTopics(ros::NodeHandle& node, const SceneInfo& info, TissueDepths& depths,
+              const MarkerOptions& options, bool publish_clock, const std::string& world_frame,
               const ros::SubscriberStatusCallback& on_subscriber);
 
   void publishStats(const Frame& frame) const;
@@ -29,6 +29,7 @@ class SceneTopics
 
  private:
   MarkerBuilder builder_;
+  TissueDepths& depths_;
   std::string world_frame_;
   ros::Publisher stats_;
   ros::Publisher markers_;

@@ -34,7 +34,7 @@ class SimNode
 
  private:
   void addInputs(const std::vector<soft_tissue::ToolConfig>& tools);
-  void addOutputs(const soft_tissue::SceneConfig& config);
+  void addOutputs();
   void pollInputs();
   void onFailure(const std::string& what);
 
@@ -52,6 +52,7 @@ class SimNode
   std::deque<TfInput> tf_inputs_;
   ros::WallTimer input_timer_;
 
+  TissueDepths depths_;  ///< used by the publishing thread only, once it runs
   FramePublisher publisher_;
   std::unique_ptr<SceneTopics> scene_topics_;
   std::deque<TissueTopics> tissue_topics_;

@@ -5,6 +5,7 @@
 
 #include "soft_tissue_sim/node/message_builders.h"
 #include "soft_tissue_sim/node/physics_loop.h"
+#include "soft_tissue_sim/node/tissue_depths.h"
 
 namespace soft_tissue_sim
 {
@@ -14,14 +15,16 @@ class TissueTopics
 {
  public:
   /** @param on_subscriber  called when somebody subscribes to a state or field */
-  TissueTopics(ros::NodeHandle& node, const SceneInfo& info, std::size_t tissue, bool has_field,
-               const std::string& world_frame, const ros::SubscriberStatusCallback& on_subscriber);
+  TissueTopics(ros::NodeHandle& node, const SceneInfo& info, std::size_t tissue,
+               TissueDepths& depths, const std::string& world_frame,
+               const ros::SubscriberStatusCallback& on_subscriber);
 
   void publishState(const Frame& frame) const;
   void publishField(const Frame& frame) const;
 
  private:
   const SceneInfo& info_;
+  TissueDepths& depths_;
   std::size_t tissue_;
   std::string world_frame_;
   ros::Publisher mesh_;

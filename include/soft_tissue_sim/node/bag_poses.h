@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <string>
+#include <vector>
+
+#include "soft_tissue_sim/node/pose_series.h"
+#include "soft_tissue_sim/scene/config.h"
+
+namespace soft_tissue_sim
+{
+/** Tool poses read from a bag, on a clock that starts with the earliest of them. */
+struct BagPoses
+{
+  ros::Time start;                ///< stamp of the earliest pose
+  double length_s = 0.0;          ///< from the earliest to the latest pose
+  std::vector<PoseSeries> tools;  ///< one per tool of the scene, empty where the bag has none
+  std::vector<std::string> warnings;
+};
+
+/**
+ * Reads the poses of all tools that a topic or a tf frame moves.
+ *
+ * For a topic tool that is `.../<tool>/<its topic>` or, if the bag has none,
+ * `.../<tool>/measured_cp`, below any namespace; samples are sorted by header stamp (by recording
+ * time where it is zero). Frames other than the world are resolved through /tf and /tf_static in
+ * the bag. Poses that the node would reject are left out, with a warning.
+ * @throws soft_tissue::Error if the file is not a readable bag, or has no usable pose (naming the
+ * topics it has), or two topics claim the same tool
+ */
+BagPoses readBagPoses(const std::string& path, const std::vector<soft_tissue::ToolConfig>& tools,
+                      const std::string& world_frame);
+
+}  // namespace soft_tissue_sim

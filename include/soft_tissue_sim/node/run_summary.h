@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "soft_tissue_sim/scene/scene.h"
+
+namespace soft_tissue_sim
+{
+/** Sums a run up, step by step. */
+class RunSummary
+{
+ public:
+  explicit RunSummary(const soft_tissue::Scene& scene);
+
+  void add(const soft_tissue::Snapshot& snapshot);
+
+  /** The summary as JSON. @param wall_s  wall time of the whole run, s */
+  std::string json(double wall_s) const;
+  /** The summary in a few lines for a terminal. */
+  std::string text(double wall_s) const;
+
+  bool finite() const { return finite_; }
+
+ private:
+  struct Body
+  {
+    std::string name;
+    std::size_t nodes, tets, triangles, fixed_nodes;
+    double max_displacement_m = 0.0;  ///< over the run
+  };
+  struct Tool
+  {
+    std::string name;
+    double peak_force_n = 0.0;
+    double peak_force_time_s = 0.0;
+    double force_sum_n = 0.0;
+    std::size_t most_contacts = 0;
+  };
+
+  void addTool(Tool& sum, const soft_tissue::ToolState& tool, double time_s);
+
+  std::string scene_;
+  double time_step_s_;
+  std::vector<soft_tissue::Points> rest_;
+  std::vector<Body> bodies_;
+  std::vector<Tool> tools_;
+  std::uint64_t steps_ = 0;
+  std::uint64_t not_converged_ = 0, held_ = 0, halvings_ = 0;
+  std::uint64_t newton_iterations_ = 0, linear_iterations_ = 0;
+  double sim_time_s_ = 0.0;
+  double min_det_f_ = 1.0;
+  double max_penetration_m_ = 0.0;
+  double max_residual_ = 0.0;
+  bool finite_ = true;
+  std::uint64_t state_hash_ = 0;
+  soft_tissue::StageTimes ms_sum_;
+  std::vector<double> step_ms_;
+};
+
+}  // namespace soft_tissue_sim

@@ -1,0 +1,285 @@
+#include "soft_tissue_sim/node/bag_poses.h"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include "bag_transforms.h"
+#include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/node/command_check.h"
+#include "soft_tissue_sim/node/geometry_conversions.h"
+
+namespace soft_tissue_sim
+{
+namespace
+{
+using soft_tissue::Error;
+using soft_tissue::Pose;
+using soft_tissue::ToolConfig;
+using Kind = soft_tissue::PoseSourceConfig::Kind;
+
+struct Sample
+{
+  ros::Time stamp;
+  Pose X_WT;
+};
+
+bool endsWithName(const std::string& topic, const std::string& name)
+{
+  const bool ends = topic.size() >= name.size() &&
+                    topic.compare(topic.size() - name.size(), name.size(), name) == 0;
+  return ends && (topic.size() == name.size() || topic[topic.size() - name.size() - 1] == '/');
+}
+
+/** Topics of a bag with their types. */
+std::map<std::string, std::string> topicTypes(rosbag::Bag& bag)
+{
+  std::map<std::string, std::string> types;
+  rosbag::View view(bag);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections())
+  {
+    types[connection->topic] = connection->datatype;
+  }
+  return types;
+}
+
+/** The one topic that ends with "<tool>/<name>"; empty if there is none. */
+std::string findTopic(const std::map<std::string, std::string>& types, const std::string& name)
+{
+  std::string found;
+  for (const auto& [topic, type] : types)
+  {
+    if (!endsWithName(topic, name))
+    {
+      continue;
+    }
+    if (!found.empty())
+    {
+      throw Error("both " + found + " and " + topic + " have poses for " + name);
+    }
+    if (type != "geometry_msgs/PoseStamped")
+    {
+      throw Error("topic " + topic + " is of type " + type + ", must be geometry_msgs/PoseStamped");
+    }
+    found = topic;
+  }
+  return found;
+}
+
+/** Reads one tool's samples in the order of the bag. */
+class SampleReader
+{
+ public:
+  SampleReader(rosbag::Bag& bag, std::string world_frame)
+      : bag_(bag), world_frame_(std::move(world_frame))
+  {}
+
+  std::vector<Sample> fromTopic(const std::string& topic, std::vector<std::string>& warnings)
+  {
+    std::vector<Sample> samples;
+    std::map<std::string, std::size_t> refused;
+    rosbag::View view(bag_, rosbag::TopicQuery(topic));
+    for (const rosbag::MessageInstance& instance : view)
+    {
+      const auto message = instance.instantiate<geometry_msgs::PoseStamped>();
+      const ros::Time stamp =
+          message->header.stamp.isZero() ? instance.getTime() : message->header.stamp;
+      try
+      {
+        samples.push_back({stamp, worldPose(*message, stamp)});
+      }
+      catch (const Error& reason)
+      {
+        ++refused[reason.what()];
+      }
+    }
+    for (const auto& [reason, count] : refused)
+    {
+      warnings.push_back(topic + ": " + std::to_string(count) + " poses left out: " + reason);
+    }
+    return samples;
+  }
+
+  std::vector<Sample> fromFrame(const std::string& frame)
+  {
+    std::vector<Sample> samples;
+    for (const ros::Time& stamp : transforms().stamps())
+    {
+      Pose X_WT;
+      if (transforms().lookup(world_frame_, frame, stamp, X_WT).empty() &&
+          checkPose(poseMessage(X_WT)) == Rejection::none)
+      {
+        samples.push_back({stamp, X_WT});
+      }
+    }
+    return samples;
+  }
+
+ private:
+  Pose worldPose(const geometry_msgs::PoseStamped& message, const ros::Time& stamp)
+  {
+    const Rejection rejection = checkPose(message.pose);
+    if (rejection != Rejection::none)
+    {
+      throw Error(rejectionText(rejection));
+    }
+    const std::string& frame = message.header.frame_id;
+    const Pose X_FT = poseFromMessage(message.pose);
+    if (frame.empty() || frame == world_frame_)
+    {
+      return X_FT;
+    }
+    Pose X_WF;
+    if (!transforms().lookup(world_frame_, frame, stamp, X_WF).empty())
+    {
+      throw Error("tf in the bag does not lead from frame '" + frame + "' to '" + world_frame_ +
+                  "' at the stamp");
+    }
+    const Pose X_WT = X_WF * X_FT;
+    if (checkPose(poseMessage(X_WT)) != Rejection::none)
+    {
+      throw Error(rejectionText(checkPose(poseMessage(X_WT))));
+    }
+    return X_WT;
+  }
+
+  const BagTransforms& transforms()
+  {
+    if (!transforms_)
+    {
+      transforms_ = std::make_unique<BagTransforms>(bag_);
+    }
+    return *transforms_;
+  }
+
+  rosbag::Bag& bag_;
+  std::string world_frame_;
+  std::unique_ptr<BagTransforms> transforms_;  ///< read when first needed
+};
+
+std::vector<Sample> readSamples(SampleReader& reader, const ToolConfig& tool,
+                                const std::map<std::string, std::string>& types,
+                                std::vector<std::string>& warnings)
+{
+  if (tool.pose_source.kind == Kind::tf)
+  {
+    return reader.fromFrame(tool.pose_source.name);
+  }
+  std::string topic = findTopic(types, tool.name + "/" + tool.pose_source.name);
+  if (topic.empty())
+  {
+    topic = findTopic(types, tool.name + "/measured_cp");
+  }
+  return topic.empty() ? std::vector<Sample>() : reader.fromTopic(topic, warnings);
+}
+
+std::string listTopics(const std::map<std::string, std::string>& types)
+{
+  std::string list;
+  for (const auto& [topic, type] : types)
+  {
+    list += (list.empty() ? "" : ", ") + topic + " (" + type + ")";
+  }
+  return list.empty() ? "it has no topics" : "it has " + list;
+}
+
+std::string wantedNames(const std::vector<ToolConfig>& tools)
+{
+  std::string names;
+  for (const ToolConfig& tool : tools)
+  {
+    const std::string separator = names.empty() ? "" : ", ";
+    if (tool.pose_source.kind == Kind::topic)
+    {
+      names +=
+          separator + tool.name + "/" + tool.pose_source.name + " or " + tool.name + "/measured_cp";
+    }
+    else if (tool.pose_source.kind == Kind::tf)
+    {
+      names += separator + "tf frame " + tool.pose_source.name;
+    }
+  }
+  return names.empty() ? "nothing: all tools of the scene follow key frames" : names;
+}
+
+BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
+                const std::string& world_frame)
+{
+  const std::map<std::string, std::string> types = topicTypes(bag);
+  SampleReader reader(bag, world_frame);
+  BagPoses poses;
+  std::vector<std::vector<Sample>> samples(tools.size());
+  ros::Time first = ros::TIME_MAX;
+  ros::Time last = ros::TIME_MIN;
+  for (std::size_t tool = 0; tool < tools.size(); ++tool)
+  {
+    if (tools[tool].pose_source.kind == Kind::keyframes)
+    {
+      continue;
+    }
+    samples[tool] = readSamples(reader, tools[tool], types, poses.warnings);
+    std::stable_sort(samples[tool].begin(), samples[tool].end(),
+                     [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; });
+    if (samples[tool].empty())
+    {
+      poses.warnings.push_back("no poses for tool '" + tools[tool].name +
+                               "': it stays where it is");
+      continue;
+    }
+    first = std::min(first, samples[tool].front().stamp);
+    last = std::max(last, samples[tool].back().stamp);
+  }
+  if (first == ros::TIME_MAX)
+  {
+    std::string reasons;
+    for (const std::string& warning : poses.warnings)
+    {
+      reasons += "; " + warning;
+    }
+    throw Error("no usable poses; looked for " + wantedNames(tools) + "; " + listTopics(types) +
+                reasons);
+  }
+  poses.start = first;
+  poses.length_s = (last - first).toSec();
+  poses.tools.resize(tools.size());
+  for (std::size_t tool = 0; tool < tools.size(); ++tool)
+  {
+    for (const Sample& sample : samples[tool])
+    {
+      poses.tools[tool].times_s.push_back((sample.stamp - first).toSec());
+      poses.tools[tool].poses_W.push_back(sample.X_WT);
+    }
+  }
+  return poses;
+}
+
+}  // namespace
+
+BagPoses readBagPoses(const std::string& path, const std::vector<ToolConfig>& tools,
+                      const std::string& world_frame)
+{
+  try
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Read);
+    return gather(bag, tools, world_frame);
+  }
+  catch (const rosbag::BagUnindexedException&)
+  {
+    throw Error("bag " + path + ": is not closed properly or truncated; try 'rosbag reindex'");
+  }
+  catch (const Error& error)
+  {
+    throw Error("bag " + path + ": " + error.what());
+  }
+  catch (const std::exception& error)
+  {
+    throw Error("bag " + path + ": is not a readable bag: " + error.what());
+  }
+}
+
+}  // namespace soft_tissue_sim

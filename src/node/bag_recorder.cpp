@@ -1,0 +1,92 @@
+#include "soft_tissue_sim/node/bag_recorder.h"
+
+#include <algorithm>
+
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue_sim
+{
+namespace
+{
+const std::string kNamespace = "/sim_node/";
+}  // namespace
+
+BagRecorder::BagRecorder(const std::string& path, const SceneInfo& info,
+                         const std::string& world_frame, const ros::Time& start,
+                         double state_rate_hz)
+    : info_(info),
+      path_(path),
+      world_frame_(world_frame),
+      start_(std::max(start, ros::TIME_MIN)),
+      state_period_s_(state_rate_hz > 0.0 ? 1.0 / state_rate_hz : 0.0)
+{
+  try
+  {
+    bag_.open(path, rosbag::bagmode::Write);
+    bag_.setCompression(rosbag::compression::LZ4);
+    writeMeshes();
+  }
+  catch (const rosbag::BagException& error)
+  {
+    throw soft_tissue::Error("bag " + path + ": can't be written: " + error.what());
+  }
+}
+
+void BagRecorder::writeMeshes()
+{
+  for (std::size_t tissue = 0; tissue < info_.tissues.size(); ++tissue)
+  {
+    bag_.write(kNamespace + info_.tissue_names[tissue] + "/mesh", start_,
+               meshMessage(info_, tissue, {start_, world_frame_}));
+  }
+}
+
+void BagRecorder::write(const soft_tissue::Snapshot& snapshot)
+{
+  const double time = snapshot.report.time_s;
+  const Stamp stamp{start_ + ros::Duration(time), world_frame_};
+  try
+  {
+    constexpr double kRounding = 1.0e-9;  // s
+    if (time + kRounding >= next_state_s_)
+    {
+      next_state_s_ += state_period_s_;
+      for (std::size_t tissue = 0; tissue < info_.tissues.size(); ++tissue)
+      {
+        bag_.write(kNamespace + info_.tissue_names[tissue] + "/state", stamp.time,
+                   stateMessage(info_, snapshot, tissue, stamp));
+      }
+    }
+    for (std::size_t tool = 0; tool < info_.tools.size(); ++tool)
+    {
+      writeTool(tool, snapshot, stamp);
+    }
+    SimStats stats = statsMessage(snapshot, 0.0, stamp);
+    stats.step_ms = 0.0;
+    std::fill(stats.stage_ms.begin(), stats.stage_ms.end(), 0.0);
+    bag_.write(kNamespace + "stats", stamp.time, stats);
+  }
+  catch (const rosbag::BagException& error)
+  {
+    throw soft_tissue::Error("bag " + path_ + ": can't be written: " + error.what());
+  }
+}
+
+void BagRecorder::writeTool(std::size_t tool, const soft_tissue::Snapshot& snapshot,
+                            const Stamp& stamp)
+{
+  const std::string& name = info_.tools[tool].name;
+  const std::string topic = kNamespace + name;
+  const soft_tissue::ToolState& state = snapshot.tools[tool];
+  bag_.write(topic + "/measured_cp", stamp.time, toolPoseMessage(state, stamp));
+  bag_.write(topic + "/body/measured_cf", stamp.time, bodyWrenchMessage(state, name, stamp));
+  bag_.write(topic + "/spatial/measured_cf", stamp.time, spatialWrenchMessage(state, stamp));
+  bag_.write(topic + "/contacts", stamp.time, contactsMessage(info_, snapshot, tool, stamp));
+}
+
+void BagRecorder::close()
+{
+  bag_.close();
+}
+
+}  // namespace soft_tissue_sim

@@ -1,0 +1,74 @@
+#include "soft_tissue_sim/node/csv_recorder.h"
+
+#include <algorithm>
+
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue_sim
+{
+CsvRecorder::CsvRecorder(const std::string& path, const std::vector<soft_tissue::ToolInfo>& tools)
+    : path_(path), stream_(path)
+{
+  stream_.precision(17);
+  stream_ << "step,time_s,newton_iterations,linear_iterations,residual,converged,halvings,held,"
+             "min_det_f,max_penetration_m,contacts,state_hash";
+  for (const soft_tissue::ToolInfo& tool : tools)
+  {
+    for (const char* column :
+         {"x_m", "y_m", "z_m", "qx", "qy", "qz", "qw", "force_x_n", "force_y_n", "force_z_n",
+          "torque_x_nm", "torque_y_nm", "torque_z_nm", "depth_m", "contacts"})
+    {
+      stream_ << ',' << tool.name << '_' << column;
+    }
+  }
+  stream_ << '\n';
+  if (!stream_)
+  {
+    throw soft_tissue::Error("csv " + path + ": can't be written");
+  }
+}
+
+void CsvRecorder::write(const soft_tissue::Snapshot& snapshot)
+{
+  const soft_tissue::StepReport& report = snapshot.report;
+  stream_ << report.step << ',' << report.time_s << ',' << report.newton_iterations << ','
+          << report.linear_iterations << ',' << report.residual << ',' << report.converged << ','
+          << report.halvings << ',' << report.held << ',' << report.min_det_f << ','
+          << report.max_penetration_m << ',' << report.contacts << ',' << std::hex
+          << snapshot.state_hash << std::dec;
+  for (const soft_tissue::ToolState& tool : snapshot.tools)
+  {
+    writeTool(tool);
+  }
+  stream_ << '\n';
+}
+
+void CsvRecorder::writeTool(const soft_tissue::ToolState& tool)
+{
+  const soft_tissue::Vec3 p = tool.X_WT.translation();
+  const Eigen::Quaterniond q(tool.X_WT.linear());
+  const soft_tissue::Vec3& force = tool.wrench_W.force;
+  const soft_tissue::Vec3& torque = tool.wrench_W.torque;
+  double depth = 0.0;
+  for (const soft_tissue::ContactPoint& contact : tool.contacts)
+  {
+    depth = std::max(depth, contact.depth);
+  }
+  for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), force.x(), force.y(),
+                             force.z(), torque.x(), torque.y(), torque.z(), depth})
+  {
+    stream_ << ',' << value;
+  }
+  stream_ << ',' << tool.contacts.size();
+}
+
+void CsvRecorder::close()
+{
+  stream_.close();
+  if (!stream_)
+  {
+    throw soft_tissue::Error("csv " + path_ + ": can't be written to its end");
+  }
+}
+
+}  // namespace soft_tissue_sim

@@ -1,0 +1,120 @@
+#include "soft_tissue_sim/node/run_options.h"
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace soft_tissue_sim
+{
+namespace
+{
+double parseNumber(const std::string& option, const std::string& text, double lowest)
+{
+  std::size_t used = 0;
+  double value = 0.0;
+  try
+  {
+    value = std::stod(text, &used);
+  }
+  catch (const std::exception&)
+  {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !std::isfinite(value) || value < lowest)
+  {
+    throw UsageError(option + " " + text + ": must be a number not below " +
+                     std::to_string(lowest));
+  }
+  return value;
+}
+
+int parseCount(const std::string& option, const std::string& text)
+{
+  const double value = parseNumber(option, text, 0.0);
+  if (value != std::floor(value) || value > 1024.0)
+  {
+    throw UsageError(option + " " + text + ": must be a whole number up to 1024");
+  }
+  return static_cast<int>(value);
+}
+
+}  // namespace
+
+std::string runUsage()
+{
+  return "usage: run_scene SCENE.yaml [options]\n"
+         "Runs a scene as fast as possible, without a roscore.\n\n"
+         "  --duration S         simulated seconds; default: the bag's length or the last key "
+         "frame\n"
+         "  --bag-in FILE        tool poses: .../<tool>/servo_cp or .../<tool>/measured_cp\n"
+         "  --bag-out FILE       meshes, states, poses, forces, contacts and stats\n"
+         "  --state-rate HZ      most tissue states a simulated second in that bag; 0: every step\n"
+         "  --csv FILE           one line a step\n"
+         "  --json FILE          summary of the run\n"
+         "  --frame-id FRAME     name of the world frame (world)\n"
+         "  --threads N          threads a step may use; 0: one per processor\n"
+         "  --quiet              print nothing but errors\n"
+         "  --describe-schema    print all keys of a scene file, and end\n"
+         "  --help               print this, and end\n\n"
+         "exit status: 0 done, 1 failed, 2 wrong usage\n";
+}
+
+RunOptions parseRunOptions(const std::vector<std::string>& arguments)
+{
+  RunOptions options;
+  const std::map<std::string, std::function<void(const std::string&, const std::string&)>> valued =
+      {{"--duration", [&](const auto& name,
+                          const auto& text) { options.duration_s = parseNumber(name, text, 0.0); }},
+       {"--bag-in", [&](const auto&, const auto& text) { options.bag_in = text; }},
+       {"--bag-out", [&](const auto&, const auto& text) { options.bag_out = text; }},
+       {"--csv", [&](const auto&, const auto& text) { options.csv = text; }},
+       {"--json", [&](const auto&, const auto& text) { options.json = text; }},
+       {"--frame-id", [&](const auto&, const auto& text) { options.world_frame = text; }},
+       {"--state-rate",
+        [&](const auto& name, const auto& text) {
+          options.state_rate_hz = parseNumber(name, text, 0.0);
+        }},
+       {"--threads",
+        [&](const auto& name, const auto& text) { options.threads = parseCount(name, text); }}};
+  const std::map<std::string, bool*> flags = {{"--quiet", &options.quiet},
+                                              {"--describe-schema", &options.describe_schema},
+                                              {"--help", &options.help},
+                                              {"-h", &options.help}};
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+  {
+    const std::string& argument = arguments[i];
+    const auto flag = flags.find(argument);
+    const auto option = valued.find(argument);
+    if (flag != flags.end())
+    {
+      *flag->second = true;
+    }
+    else if (option != valued.end())
+    {
+      if (i + 1 == arguments.size())
+      {
+        throw UsageError(argument + " needs a value");
+      }
+      option->second(argument, arguments[++i]);
+    }
+    else if (!argument.empty() && argument[0] == '-')
+    {
+      throw UsageError("unknown option " + argument);
+    }
+    else if (!options.scene.empty())
+    {
+      throw UsageError("more than one scene: " + options.scene + " and " + argument);
+    }
+    else
+    {
+      options.scene = argument;
+    }
+  }
+  if (options.scene.empty() && !options.help && !options.describe_schema)
+  {
+    throw UsageError("a scene file is needed");
+  }
+  return options;
+}
+
+}  // namespace soft_tissue_sim

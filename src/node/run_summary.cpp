@@ -1,0 +1,161 @@
+#include "soft_tissue_sim/node/run_summary.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "soft_tissue_sim/node/json_writer.h"
+
+namespace soft_tissue_sim
+{
+namespace
+{
+std::string hexadecimal(std::uint64_t value)
+{
+  char text[24];
+  std::snprintf(text, sizeof(text), "%016" PRIx64, value);
+  return text;
+}
+
+double nearestRank(std::vector<double> values, double fraction)
+{
+  if (values.empty())
+  {
+    return 0.0;
+  }
+  const double last = static_cast<double>(values.size() - 1);
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::lround(fraction * last));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+}  // namespace
+
+RunSummary::RunSummary(const soft_tissue::Scene& scene)
+    : scene_(scene.config().file), time_step_s_(scene.config().time_step_s)
+{
+  for (const soft_tissue::TissueInfo& tissue : scene.tissues())
+  {
+    rest_.push_back(tissue.rest.nodes);
+    bodies_.push_back({tissue.name, tissue.rest.nodes.size(), tissue.rest.tets.size(),
+                       tissue.surface.triangles.size(), tissue.fixed_nodes.size()});
+  }
+  for (const soft_tissue::ToolInfo& tool : scene.tools())
+  {
+    tools_.push_back({tool.name});
+  }
+}
+
+void RunSummary::add(const soft_tissue::Snapshot& snapshot)
+{
+  const soft_tissue::StepReport& report = snapshot.report;
+  ++steps_;
+  sim_time_s_ = report.time_s;
+  not_converged_ += report.converged ? 0 : 1;
+  held_ += report.held ? 1 : 0;
+  halvings_ += static_cast<std::uint64_t>(report.halvings);
+  newton_iterations_ += static_cast<std::uint64_t>(report.newton_iterations);
+  linear_iterations_ += static_cast<std::uint64_t>(report.linear_iterations);
+  min_det_f_ = std::min(min_det_f_, report.min_det_f);
+  max_penetration_m_ = std::max(max_penetration_m_, report.max_penetration_m);
+  max_residual_ = std::max(max_residual_, report.residual);
+  state_hash_ = snapshot.state_hash;
+  ms_sum_.fem += report.ms.fem;
+  ms_sum_.field += report.ms.field;
+  ms_sum_.detect += report.ms.detect;
+  ms_sum_.respond += report.ms.respond;
+  ms_sum_.solve += report.ms.solve;
+  ms_sum_.total += report.ms.total;
+  step_ms_.push_back(report.ms.total);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+  {
+    const soft_tissue::Points& positions = snapshot.tissues[i].positions;
+    for (std::size_t node = 0; node < positions.size(); ++node)
+    {
+      const double displacement = (positions[node] - rest_[i][node]).norm();
+      finite_ = finite_ && std::isfinite(displacement);
+      bodies_[i].max_displacement_m = std::max(bodies_[i].max_displacement_m, displacement);
+    }
+  }
+  for (std::size_t i = 0; i < tools_.size(); ++i)
+  {
+    addTool(tools_[i], snapshot.tools[i], report.time_s);
+  }
+}
+
+void RunSummary::addTool(Tool& sum, const soft_tissue::ToolState& tool, double time_s)
+{
+  const double force = tool.wrench_W.force.norm();
+  finite_ = finite_ && std::isfinite(force);
+  sum.force_sum_n += force;
+  sum.most_contacts = std::max(sum.most_contacts, tool.contacts.size());
+  if (force > sum.peak_force_n)
+  {
+    sum.peak_force_n = force;
+    sum.peak_force_time_s = time_s;
+  }
+}
+
+std::string RunSummary::json(double wall_s) const
+{
+  const double count = steps_ > 0 ? static_cast<double>(steps_) : 1.0;
+  const double simulated = static_cast<double>(steps_) * time_step_s_;
+  JsonWriter json;
+  json.beginObject();
+  json.value("scene", scene_).value("time_step_s", time_step_s_).value("steps", steps_);
+  json.value("sim_time_s", sim_time_s_).value("wall_s", wall_s);
+  json.value("real_time_factor", wall_s > 0.0 ? simulated / wall_s : 0.0);
+  json.value("finite", finite_).value("min_det_f", min_det_f_);
+  json.value("max_penetration_m", max_penetration_m_).value("max_residual", max_residual_);
+  json.value("newton_iterations_mean", static_cast<double>(newton_iterations_) / count);
+  json.value("linear_iterations_mean", static_cast<double>(linear_iterations_) / count);
+  json.value("steps_not_converged", not_converged_).value("steps_held", held_);
+  json.value("step_halvings", halvings_).value("state_hash", hexadecimal(state_hash_));
+  json.beginObject("stage_ms");
+  json.value("fem", ms_sum_.fem / count).value("field", ms_sum_.field / count);
+  json.value("detect", ms_sum_.detect / count).value("respond", ms_sum_.respond / count);
+  json.value("solve", ms_sum_.solve / count);
+  json.endObject().beginObject("step_ms");
+  json.value("mean", ms_sum_.total / count).value("median", nearestRank(step_ms_, 0.5));
+  json.value("p99", nearestRank(step_ms_, 0.99)).value("max", nearestRank(step_ms_, 1.0));
+  json.endObject().beginArray("bodies");
+  for (const Body& body : bodies_)
+  {
+    json.beginObject().value("name", body.name);
+    json.value("nodes", std::uint64_t{body.nodes}).value("tets", std::uint64_t{body.tets});
+    json.value("surface_triangles", std::uint64_t{body.triangles});
+    json.value("fixed_nodes", std::uint64_t{body.fixed_nodes});
+    json.value("max_displacement_m", body.max_displacement_m).endObject();
+  }
+  json.endArray().beginArray("tools");
+  for (const Tool& tool : tools_)
+  {
+    json.beginObject().value("name", tool.name).value("peak_force_n", tool.peak_force_n);
+    json.value("peak_force_time_s", tool.peak_force_time_s);
+    json.value("mean_force_n", tool.force_sum_n / count);
+    json.value("most_contacts", std::uint64_t{tool.most_contacts}).endObject();
+  }
+  json.endArray().endObject();
+  return json.text();
+}
+
+std::string RunSummary::text(double wall_s) const
+{
+  const double simulated = static_cast<double>(steps_) * time_step_s_;
+  std::ostringstream text;
+  text << steps_ << " steps, " << simulated << " s simulated in " << wall_s << " s ("
+       << (wall_s > 0.0 ? simulated / wall_s : 0.0) << " times real time)\n"
+       << "smallest det F " << min_det_f_ << ", deepest penetration " << 1.0e3 * max_penetration_m_
+       << " mm, " << not_converged_ << " steps not converged, " << held_ << " held\n";
+  for (const Tool& tool : tools_)
+  {
+    text << tool.name << ": peak force " << tool.peak_force_n << " N at " << tool.peak_force_time_s
+         << " s\n";
+  }
+  text << "state hash " << hexadecimal(state_hash_) << "\n";
+  return text.str();
+}
+
+}  // namespace soft_tissue_sim
