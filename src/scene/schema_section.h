@@ -157,7 +157,7 @@ Kind<T> mapOf(const Section<T>& section)
   Kind<T> kind;
   kind.type = "map";
   kind.read = [&section](const Item& item) { return section.read(item); };
-  kind.show = [](const T&) { return std::string(); };
+  kind.show = [](const T&) { return std::string("its defaults"); };
   kind.section = &section;
   return kind;
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 
 #include "bad_scene.h"
@@ -149,6 +150,38 @@ TEST_F(BadSceneTextTest, AnchorsMayRefill)
                                "{young_modulus_pa: 9000",
                                "mesh: *mesh\n    material: {young_modulus_pa: 9000")),
             "no complaint");
+}
+
+TEST_F(BadSceneTextTest, MutilatedFilesAreReadOrRefusedButNothingElse)
+{
+  const std::string spare = "[]{}:,-#&*!|>'\"%@ \n\t0aZ.~\xff\x01";
+  std::minstd_rand random(1);
+  const auto below = [&](std::size_t size) { return random() % size; };
+  int refused = 0;
+  for (int round = 0; round < 2000; ++round)
+  {
+    std::string text = kGood;
+    for (std::size_t change = 0; change <= below(3); ++change)
+    {
+      const std::size_t at = below(text.size());
+      switch (below(3))
+      {
+        case 0:
+          text[at] = spare[below(spare.size())];
+          break;
+        case 1:
+          text.erase(at, 1 + below(20));
+          break;
+        default:
+          text.insert(at, text.substr(below(text.size()), 1 + below(20)));
+      }
+    }
+    const std::string message = complaint(text);
+    const bool names_file = message.rfind("DIR/scene.yaml: ", 0) == 0;
+    EXPECT_TRUE(names_file || message == "no complaint") << message;
+    refused += names_file ? 1 : 0;
+  }
+  EXPECT_GT(refused, 1000);
 }
 
 }  // namespace
