@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+"""The node on wall time: what it publishes, what it refuses, what cannot slow it down."""
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
+from soft_tissue_sim.msg import TissueField
+from visualization_msgs.msg import Marker, MarkerArray
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from sim_client import NODE, PATIENCE_S, SimClient, wait_for_mesh, wait_for_state, wait_until
+
+ABOVE = (0.0, 0.0, 0.05)
+PRESSED = (0.0, 0.0, 0.036)  # 2 mm into the block
+QUARTER_TURN_ABOUT_X = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
+
+
+class SimNodeTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.client = SimClient()
+        cls.client.wait_for_commands_to_arrive()
+        cls.client.wait_for_step()
+
+    def setUp(self):
+        self.client.unpause()
+        self.client.reset()
+
+    def pressed_messages(self, rotation):
+        """Messages of one step in which the probe rests, pressed into the block."""
+        self.client.hold(ABOVE, rotation)
+        self.client.hold(PRESSED, rotation, seconds=0.7)
+        topics = {"probe/body/measured_cf", "probe/spatial/measured_cf", "probe/contacts",
+                  "probe/measured_cp"}
+        complete = [stamp for stamp, found in self.client.by_stamp.items() if topics <= set(found)]
+        return self.client.by_stamp[max(complete)]
+
+    def test_force_pushes_the_tool_out_and_turns_with_its_axes(self):
+        for rotation, out_of_tissue in (((0, 0, 0, 1), "z"), (QUARTER_TURN_ABOUT_X, "y")):
+            found = self.pressed_messages(rotation)
+            body = found["probe/body/measured_cf"]
+            spatial = found["probe/spatial/measured_cf"]
+            self.assertEqual(body.header.frame_id, "probe")
+            self.assertEqual(spatial.header.frame_id, "world")
+            self.assertGreater(spatial.wrench.force.z, 0.02)
+            self.assertAlmostEqual(getattr(body.wrench.force, out_of_tissue),
+                                   spatial.wrench.force.z, places=9)
+
+    def test_contacts_add_up_to_force_and_moment_about_the_tools_origin(self):
+        found = self.pressed_messages((0, 0, 0, 1))
+        contacts = found["probe/contacts"]
+        origin = found["probe/measured_cp"].pose.position
+        force = [0.0, 0.0, 0.0]
+        moment = [0.0, 0.0, 0.0]
+        self.assertGreater(len(contacts.points), 0)
+        for point, f, normal in zip(contacts.points, contacts.forces, contacts.normals):
+            r = (point.x - origin.x, point.y - origin.y, point.z - origin.z)
+            self.assertGreater(f.x * normal.x + f.y * normal.y + f.z * normal.z, 0.0)
+            for axis, value in enumerate((f.x, f.y, f.z)):
+                force[axis] += value
+            moment[0] += r[1] * f.z - r[2] * f.y
+            moment[1] += r[2] * f.x - r[0] * f.z
+            moment[2] += r[0] * f.y - r[1] * f.x
+        wrench = found["probe/spatial/measured_cf"].wrench
+        for axis, name in enumerate("xyz"):
+            self.assertAlmostEqual(force[axis], getattr(wrench.force, name), places=9)
+            self.assertAlmostEqual(moment[axis], getattr(wrench.torque, name), places=9)
+
+    def test_late_subscriber_gets_mesh_state_and_field(self):
+        mesh = wait_for_mesh()
+        state = wait_for_state()
+        field = rospy.wait_for_message(NODE + "/block/field", TissueField, PATIENCE_S)
+        self.assertEqual(len(mesh.rest_positions), 3 * 196)
+        self.assertEqual(len(mesh.tets), 4 * 648)
+        self.assertEqual(len(mesh.fixed_nodes), 49)
+        self.assertEqual(mesh.topology_id, state.topology_id)
+        self.assertEqual(mesh.topology_id, field.topology_id)
+        self.assertEqual(len(state.positions), 3 * 196)
+        self.assertEqual(len(field.depths), 196)
+        self.assertAlmostEqual(max(field.depths), 0.01, places=3)  # the middle of 3 cells
+
+    def test_bad_commands_are_refused_and_the_simulation_goes_on(self):
+        client = self.client
+        client.hold(ABOVE)
+        wait_until(lambda: math.dist(client.position(), ABOVE) < 1e-9, "the probe obeys")
+        now = rospy.Time.now()
+        nan = float("nan")
+        bad = {"rejected: not finite": dict(position=(nan, 0, 0.03), stamp=now),
+               "rejected: quaternion not unit": dict(position=PRESSED, rotation=(0, 0, 0, 1.01),
+                                                     stamp=now),
+               "rejected: too far": dict(position=(0, 0, 10.5), stamp=now),
+               "tf failures: unknown frame": dict(position=PRESSED, frame="nowhere", stamp=now),
+               "rejected: stamp went back": dict(position=PRESSED,
+                                                 stamp=now - rospy.Duration(5.0))}
+        for key, command in bad.items():
+            before = client.count("probe commands", key)
+            step = client.newest["stats"].step
+
+            def refused():
+                client.command(ABOVE, stamp=rospy.Time.now())  # keeps the stream of stamps alive
+                time.sleep(0.02)
+                client.command(**command)
+                return client.count("probe commands", key) > before
+
+            wait_until(refused, key)
+            wait_until(lambda: client.newest["stats"].step > step, "steps go on")
+            self.assertTrue(math.dist(client.position(), ABOVE) < 1e-9, key)
+        client.hold((0.0, 0.0, 0.055))
+        wait_until(lambda: abs(client.position()[2] - 0.055) < 1e-9, "good commands count again")
+
+    def test_watchdog_warns_and_holds_the_pose(self):
+        client = self.client
+        client.hold(ABOVE)
+        wait_until(lambda: client.levels.get("probe commands") == 1, "diagnostics warn of silence")
+        self.assertLess(math.dist(client.position(), ABOVE), 1e-9)
+
+        def heard():
+            client.hold(ABOVE, seconds=0.1)
+            return client.levels["probe commands"] == 0
+
+        wait_until(heard, "diagnostics are content again")
+
+    def test_pause_step_and_reset_keep_time(self):
+        client = self.client
+        refused = client.step(1)
+        self.assertFalse(refused.success)
+        self.assertIn("pause_physics", refused.message)
+        client.pause()
+        self.assertFalse(client.step(0).success)
+        start = client.step(1).time
+        time.sleep(0.3)
+        after = client.step(20)
+        self.assertTrue(after.success)
+        self.assertAlmostEqual(after.time, start + 20 * 0.005, places=9)
+        wait_until(lambda: abs(client.sim_time() - after.time) < 1e-9, "the last step is published")
+        client.reset()
+        self.assertAlmostEqual(client.step(1).time, after.time + 0.005, places=9)
+
+    def test_reset_restores_rest_shape_and_initial_pose(self):
+        mesh = wait_for_mesh()
+        self.pressed_messages((0, 0, 0, 1))
+        deformed = wait_for_state()
+        self.client.pause()
+        self.client.reset()
+        state = wait_for_state()
+        self.assertGreater(max(abs(a - b) for a, b in
+                               zip(deformed.positions, mesh.rest_positions)), 1e-3)
+        self.assertEqual(state.positions, mesh.rest_positions)
+        wait_until(lambda: abs(self.client.position()[2] - 0.06) < 1e-9, "the probe is back")
+
+    def test_markers_cost_nothing_unless_somebody_looks(self):
+        client = self.client
+        key = "marker arrays built"
+        wait_until(lambda: client.count("physics", "steps") > 0, "diagnostics")
+        idle = client.count("physics", key)
+        steps = client.count("physics", "steps")
+        wait_until(lambda: client.count("physics", "steps") > steps + 100, "steps without markers")
+        self.assertEqual(client.count("physics", key), idle)
+        arrays = []
+        subscriber = rospy.Subscriber(NODE + "/markers", MarkerArray, arrays.append)
+        wait_until(lambda: len(arrays) > 3, "markers")
+        namespaces = {marker.ns for marker in arrays[-1].markers}
+        self.assertLessEqual({"block", "block/fixed", "block/distance/slice",
+                              "block/distance/nodes", "probe", "probe/contacts"}, namespaces)
+        names = [(marker.ns, marker.id) for marker in arrays[-1].markers]
+        self.assertEqual(len(names), len(set(names)))
+        client.reset()
+        wait_until(lambda: any(array.markers[0].action == Marker.DELETEALL for array in arrays),
+                   "markers are deleted on reset")
+        subscriber.unregister()
+
+    def test_a_stopped_subscriber_does_not_hold_up_the_physics(self):
+        listener = subprocess.Popen(
+            ["rostopic", "echo", NODE + "/block/state"], stdout=subprocess.PIPE)
+        try:
+            listener.stdout.readline()  # it listens
+            os.kill(listener.pid, signal.SIGSTOP)
+            self.assert_time_goes_on(lambda: time.sleep(0.1))
+        finally:
+            os.kill(listener.pid, signal.SIGKILL)
+            listener.communicate()
+
+    def test_a_flood_of_commands_does_not_hold_up_the_physics(self):
+        def flood():
+            for _ in range(500):
+                self.client.command(ABOVE)
+
+        self.assert_time_goes_on(flood)
+        wait_until(lambda: math.dist(self.client.position(), ABOVE) < 1e-9, "the flood is obeyed")
+
+    def assert_time_goes_on(self, meanwhile):
+        """Simulated time moves at least half as fast as wall time; it would stand still if blocked."""
+        self.client.wait_for_step()
+        start, simulated = time.time(), self.client.sim_time()
+        while time.time() < start + 3.0:
+            meanwhile()
+        self.client.wait_for_step()
+        self.assertGreater(self.client.sim_time() - simulated, 1.5)
+
+    def test_a_tool_follows_a_tf_frame(self):
+        broadcaster = tf2_ros.TransformBroadcaster()
+        buffer = tf2_ros.Buffer()
+        tf2_ros.TransformListener(buffer)
+
+        def follower_arrived():
+            transform = TransformStamped()
+            transform.header.stamp = rospy.Time.now()
+            transform.header.frame_id = "world"
+            transform.child_frame_id = "leader"
+            transform.transform.translation.z = 0.07
+            transform.transform.rotation.w = 1.0
+            broadcaster.sendTransform(transform)
+            try:
+                found = buffer.lookup_transform("world", "follower", rospy.Time()).transform
+            except tf2_ros.TransformException:
+                return False
+            return abs(found.translation.z - 0.07) < 1e-9 and abs(found.translation.x) < 1e-9
+
+        wait_until(follower_arrived, "the follower reaches its leader")
+
+    def test_commands_in_another_frame_are_transformed(self):
+        broadcaster = tf2_ros.TransformBroadcaster()
+
+        def arrived():
+            transform = TransformStamped()
+            transform.header.stamp = rospy.Time.now()
+            transform.header.frame_id = "world"
+            transform.child_frame_id = "base"
+            transform.transform.translation.x = 0.01
+            transform.transform.rotation.x, _, _, transform.transform.rotation.w = \
+                QUARTER_TURN_ABOUT_X
+            self.client.command((0.0, 0.055, 0.0), frame="base", stamp=transform.header.stamp)
+            broadcaster.sendTransform(transform)  # the command has to wait for it
+            time.sleep(0.02)
+            return math.dist(self.client.position(), (0.01, 0.0, 0.055)) < 1e-9
+
+        wait_until(arrived, "the probe is where the command means")
+
+
+if __name__ == "__main__":
+    rospy.init_node("sim_node_test")
+    rostest.rosrun("soft_tissue_sim", "sim_node_test", SimNodeTest)
