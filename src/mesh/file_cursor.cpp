@@ -131,11 +131,11 @@ void FileCursor::endLine()
 
 void FileCursor::expect(std::string_view expected)
 {
-  const std::string name = quoted(expected);
+  const std::string name = inQuotes(expected);
   const std::string_view found = word(name.c_str());
   if (found != expected)
   {
-    fail("expected " + name + ", found " + quoted(found));
+    fail("expected " + name + ", found " + inQuotes(found));
   }
 }
 
@@ -145,7 +145,7 @@ long long FileCursor::integer(const char* what, long long min, long long max)
   long long value = 0;
   if (!parseInteger(text, value))
   {
-    fail(std::string(what) + " must be a whole number, found " + quoted(text));
+    fail(std::string(what) + " must be a whole number, found " + inQuotes(text));
   }
   if (value < min || value > max)
   {
@@ -161,7 +161,7 @@ double FileCursor::real(const char* what)
   double value = 0.0;
   if (!parseReal(text, value))
   {
-    fail(std::string(what) + " must be a number, found " + quoted(text));
+    fail(std::string(what) + " must be a number, found " + inQuotes(text));
   }
   return value;
 }
@@ -189,7 +189,7 @@ void FileCursor::skipPast(std::string_view text)
   const std::size_t found = bytes_.find(text, position_);
   if (found == std::string::npos)
   {
-    fail("the file ends before " + quoted(text));
+    fail("the file ends before " + inQuotes(text));
   }
   position_ = found + text.size();
 }

@@ -72,6 +72,19 @@ TetMesh makeBox(const std::array<int, 3>& cells, const Vec3& size_m)
   return mesh;
 }
 
+std::array<int, 3> cellsForBox(const Vec3& size_m, std::size_t tets)
+{
+  needSize(size_m.minCoeff() > 0.0 && size_m.maxCoeff() < 1e6, "0 < size_m < 1e6");
+  needSize(tets >= 6 && tets <= 20000000, "6 <= tets <= 20000000");
+  const double edge = std::cbrt(size_m.prod() * 6.0 / static_cast<double>(tets));
+  std::array<int, 3> cells;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cells[axis] = std::max(1, static_cast<int>(std::lround(size_m[axis] / edge)));
+  }
+  return cells;
+}
+
 TetMesh makeTube(double inner_radius_m, double outer_radius_m, double length_m, std::size_t tets)
 {
   constexpr double kPi = 3.14159265358979323846;

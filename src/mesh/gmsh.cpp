@@ -39,7 +39,7 @@ LoadedMesh GmshReader::read()
     const std::string name(cursor_.word("a section"));
     if (name.size() < 2 || name[0] != '$')
     {
-      cursor_.fail("expected a section such as '$Nodes', found " + quoted(name));
+      cursor_.fail("expected a section such as '$Nodes', found " + inQuotes(name));
     }
     if (readSection(name.substr(1)))
     {

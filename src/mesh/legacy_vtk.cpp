@@ -66,7 +66,7 @@ void LegacyVtkReader::readHeader()
   const std::string encoding(cursor_.word("ASCII or BINARY"));
   if (encoding != "ASCII" && encoding != "BINARY")
   {
-    cursor_.fail("expected ASCII or BINARY, found " + quoted(encoding));
+    cursor_.fail("expected ASCII or BINARY, found " + inQuotes(encoding));
   }
   if (encoding == "BINARY")
   {
@@ -76,7 +76,7 @@ void LegacyVtkReader::readHeader()
   const std::string kind(cursor_.word("the kind of data set"));
   if (kind != "UNSTRUCTURED_GRID" && kind != "POLYDATA")
   {
-    cursor_.fail("data set " + quoted(kind) + ", must be UNSTRUCTURED_GRID or POLYDATA");
+    cursor_.fail("data set " + inQuotes(kind) + ", must be UNSTRUCTURED_GRID or POLYDATA");
   }
   grid_ = kind == "UNSTRUCTURED_GRID";
   builder_.setFormat("vtk " + decimal(version_) + (encoding == "ASCII" ? " ascii " : " binary ") +
@@ -139,7 +139,7 @@ bool LegacyVtkReader::readBlock(const std::string& keyword)
   }
   else
   {
-    cursor_.fail("unexpected keyword " + quoted(keyword));
+    cursor_.fail("unexpected keyword " + inQuotes(keyword));
   }
   return true;
 }
@@ -162,7 +162,7 @@ std::size_t LegacyVtkReader::bytesOf(const std::string& type)
   {
     return 8;
   }
-  cursor_.fail("data type " + quoted(type) + " is not supported");
+  cursor_.fail("data type " + inQuotes(type) + " is not supported");
 }
 
 double LegacyVtkReader::number(const std::string& type, const char* what)

@@ -119,7 +119,7 @@ void MeditReader::readBlock(const std::string& keyword)
   }
   if (nodes == 0)
   {
-    cursor_.fail("unexpected keyword " + quoted(keyword));
+    cursor_.fail("unexpected keyword " + inQuotes(keyword));
   }
   const std::size_t elements = count(2 * nodes);
   for (std::size_t i = 0; i < elements; ++i)

@@ -61,7 +61,7 @@ double metresPerUnit(const std::string& unit)
   {
     return 1.0e-6;
   }
-  throw Error("length unit " + quoted(unit) + ", must be one of m, cm, mm, um");
+  throw Error("length unit " + inQuotes(unit) + ", must be one of m, cm, mm, um");
 }
 
 }  // namespace soft_tissue

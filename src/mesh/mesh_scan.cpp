@@ -6,6 +6,12 @@
 
 namespace soft_tissue
 {
+namespace
+{
+constexpr double kZeroShape = 1e-11;  ///< height over length below which a shape is flat
+constexpr double kRounding = 1e-15;   ///< what scaling may have done to a coordinate, relative
+}  // namespace
+
 std::vector<Index> firstAtSamePlace(const Points& nodes)
 {
   std::vector<Index> order(nodes.size());
@@ -42,17 +48,25 @@ std::size_t countRepeated(const std::vector<Index>& first)
 
 bool hasZeroArea(const Points& nodes, const Triangle& triangle)
 {
-  const Vec3 u = nodes[triangle[1]] - nodes[triangle[0]];
-  const Vec3 v = nodes[triangle[2]] - nodes[triangle[0]];
-  const double longest2 = std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
-  return 0.5 * u.cross(v).norm() <= kZeroArea * longest2;
+  const Vec3& a = nodes[triangle[0]];
+  const Vec3 u = nodes[triangle[1]] - a;
+  const Vec3 v = nodes[triangle[2]] - a;
+  const double longest =
+      std::sqrt(std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()}));
+  const double rounding_m = kRounding * (a.cwiseAbs().maxCoeff() + longest);
+  return u.cross(v).norm() <= std::max(kZeroShape * longest, rounding_m) * longest;
 }
 
 bool hasZeroVolume(const Points& nodes, const Tet& tet)
 {
-  constexpr double kZeroQuality = 1e-11;
-  return !(std::abs(tetQuality(nodes[tet[0]], nodes[tet[1]], nodes[tet[2]], nodes[tet[3]])) >
-           kZeroQuality);
+  const Vec3& a = nodes[tet[0]];
+  const double quality = tetQuality(a, nodes[tet[1]], nodes[tet[2]], nodes[tet[3]]);
+  const Vec3 u = nodes[tet[1]] - a;
+  const Vec3 v = nodes[tet[2]] - a;
+  const Vec3 w = nodes[tet[3]] - a;
+  const double length = std::max({u.norm(), v.norm(), w.norm()});
+  const double rounding_m = kRounding * (a.cwiseAbs().maxCoeff() + length);
+  return !(std::abs(quality) > std::max(kZeroShape, rounding_m / length));
 }
 
 Vec3 boxSize(const Points& nodes)

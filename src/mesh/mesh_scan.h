@@ -11,9 +11,6 @@ namespace soft_tissue
 {
 // What check and repair both look for.
 
-/** Triangles this thin, as area over the longest edge's square, have no area to rounding. */
-constexpr double kZeroArea = 1e-12;
-
 /** Per node, the first node with equal coordinates (itself if it is the first). */
 std::vector<Index> firstAtSamePlace(const Points& nodes);
 

@@ -31,7 +31,7 @@ void addVertex(FileCursor& cursor, const std::vector<std::string_view>& words, M
   {
     if (!parseReal(words[axis + 1], p[axis]))
     {
-      cursor.fail("a vertex's coordinate must be a number, found " + quoted(words[axis + 1]));
+      cursor.fail("a vertex's coordinate must be a number, found " + inQuotes(words[axis + 1]));
     }
   }
   builder.addNode(p[0], p[1], p[2]);
@@ -47,7 +47,7 @@ void addFace(FileCursor& cursor, const std::vector<std::string_view>& words, lon
     long long number = 0;
     if (!parseInteger(words[i].substr(0, words[i].find('/')), number) || number == 0)
     {
-      cursor.fail("a face's vertex number must be whole and not 0, found " + quoted(words[i]));
+      cursor.fail("a face's vertex number must be whole and not 0, found " + inQuotes(words[i]));
     }
     nodes.push_back(number > 0 ? number : seen + 1 + number);
   }
@@ -91,7 +91,7 @@ LoadedMesh readObj(FileCursor& cursor, double metres_per_unit)
     }
     else
     {
-      cursor.fail("unexpected keyword " + quoted(words[0]));
+      cursor.fail("unexpected keyword " + inQuotes(words[0]));
     }
   }
   return builder.finish();

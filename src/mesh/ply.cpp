@@ -109,7 +109,7 @@ void PlyReader::readProperty(const std::vector<std::string_view>& words)
   property.count_type = list ? words[2] : "";
   if (bytesOf(property.type) == 0 || (list && bytesOf(property.count_type) == 0))
   {
-    cursor_.fail("PLY has no data type " + quoted(property.type));
+    cursor_.fail("PLY has no data type " + inQuotes(property.type));
   }
   elements_.back().properties.push_back(property);
 }
@@ -137,7 +137,7 @@ void PlyReader::readHeaderLine(const std::vector<std::string_view>& words)
   }
   else if (words[0] != "comment" && words[0] != "obj_info")
   {
-    builder_.warn("header line " + quoted(words[0]) + " is no PLY keyword and was skipped");
+    builder_.warn("header line " + inQuotes(words[0]) + " is no PLY keyword and was skipped");
   }
 }
 
@@ -291,7 +291,7 @@ long long PlyReader::wholeNumber(const std::string& type, const char* what)
     default:
       if (type == "float" || type == "float32" || bytesOf(type) != 4)
       {
-        cursor_.fail(std::string(what) + " has type " + quoted(type) + ", must be whole");
+        cursor_.fail(std::string(what) + " has type " + inQuotes(type) + ", must be whole");
       }
       return is_unsigned ? static_cast<long long>(cursor_.raw<std::uint32_t>(what))
                          : cursor_.raw<std::int32_t>(what);

@@ -82,7 +82,7 @@ LoadedMesh readAsciiStl(FileCursor& cursor, double metres_per_unit)
     {
       if (keyword != "facet")
       {
-        cursor.fail("expected 'facet' or 'endsolid', found " + quoted(keyword));
+        cursor.fail("expected 'facet' or 'endsolid', found " + inQuotes(keyword));
       }
       readFacet(cursor, merger, builder);
       keyword = cursor.word("'facet' or 'endsolid'");

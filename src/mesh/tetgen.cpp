@@ -27,13 +27,13 @@ TetgenHeader readHeader(FileCursor& cursor)
   const std::vector<std::string_view> words = splitWords(line.substr(0, line.find('#')));
   if (words.size() < 2 || words.size() > 4)
   {
-    cursor.fail("a TetGen header has 2 to 4 whole numbers, found " + quoted(line));
+    cursor.fail("a TetGen header has 2 to 4 whole numbers, found " + inQuotes(line));
   }
   for (std::size_t i = 0; i < words.size(); ++i)
   {
     if (!parseInteger(words[i], *fields[i]) || *fields[i] < 0 || (i >= 2 && *fields[i] > 1000))
     {
-      cursor.fail("a TetGen header has 2 to 4 whole numbers >= 0, found " + quoted(line));
+      cursor.fail("a TetGen header has 2 to 4 whole numbers >= 0, found " + inQuotes(line));
     }
   }
   return header;

@@ -12,7 +12,7 @@ std::string_view withoutPlus(std::string_view text)
 }
 }  // namespace
 
-std::string quoted(std::string_view text)
+std::string inQuotes(std::string_view text)
 {
   constexpr std::size_t kLongest = 40;
   std::string result = "'";

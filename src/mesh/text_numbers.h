@@ -9,7 +9,7 @@ namespace soft_tissue
 // Text and numbers without a locale: the same in every environment.
 
 /** The text in quotes, cut to 40 characters, unprintable ones as '?'. */
-std::string quoted(std::string_view text);
+std::string inQuotes(std::string_view text);
 
 /** The words of a line. */
 std::vector<std::string_view> splitWords(std::string_view line);

@@ -67,7 +67,7 @@ void VtuReader::readTag(const XmlTag& tag)
 {
   if (tag.name == "VTKFile" && tag.attribute("type") != "UnstructuredGrid")
   {
-    cursor_.fail("VTK file type " + quoted(tag.attribute("type")) + ", must be UnstructuredGrid");
+    cursor_.fail("VTK file type " + inQuotes(tag.attribute("type")) + ", must be UnstructuredGrid");
   }
   else if (tag.name == "Piece")
   {
@@ -106,7 +106,8 @@ std::size_t VtuReader::attributeCount(const XmlTag& tag, const char* key)
   long long value = 0;
   if (!parseInteger(tag.attribute(key), value))
   {
-    cursor_.fail(std::string(key) + " must be a whole number, found " + quoted(tag.attribute(key)));
+    cursor_.fail(std::string(key) + " must be a whole number, found " +
+                 inQuotes(tag.attribute(key)));
   }
   return cursor_.checkedCount(value, 1, key);
 }
@@ -131,7 +132,7 @@ void VtuReader::readArray(const XmlTag& tag)
   }
   if (tag.attribute("format", "ascii") != "ascii")
   {
-    cursor_.fail("data format " + quoted(tag.attribute("format")) +
+    cursor_.fail("data format " + inQuotes(tag.attribute("format")) +
                  " can't be read; save the file as ASCII");
   }
   if (section_ == "Points")

@@ -17,7 +17,7 @@ void readAttributes(FileCursor& cursor, std::string_view text, XmlTag& tag)
     const std::size_t close = text.find(quote, open + 1);
     if ((quote != '"' && quote != '\'') || close == std::string_view::npos)
     {
-      cursor.fail("the tag's attributes can't be read: " + quoted(text.substr(i)));
+      cursor.fail("the tag's attributes can't be read: " + inQuotes(text.substr(i)));
     }
     tag.attributes[std::string(text.substr(i, equals - i))] =
         std::string(text.substr(open + 1, close - open - 1));

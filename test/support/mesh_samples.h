@@ -22,6 +22,12 @@ inline TetMesh twoTets()
           {1, 2}};
 }
 
+/** The surface of unitTet(), outward. */
+inline TriMesh unitTetSurface()
+{
+  return {unitTet().nodes, {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+}
+
 /** Random connectivity without geometry: `count` tets of four distinct nodes, any faces shared by
  * any number. */
 inline std::vector<Tet> randomTets(Index node_count, int count, unsigned seed)

@@ -20,6 +20,12 @@ constexpr int kNoduleTag = 2;
  */
 TetMesh makeBox(const std::array<int, 3>& cells, const Vec3& size_m);
 
+/**
+ * Cells of nearly equal edges that give a box of about `tets` tets.
+ * @throws Error unless all sizes are > 0 and tets is in [6, 20000000]
+ */
+std::array<int, 3> cellsForBox(const Vec3& size_m, std::size_t tets);
+
 /** A ball around the origin of about `tets` tets. @throws Error on a radius <= 0 or tets < 500 */
 TetMesh makeBall(double radius_m, std::size_t tets);
 
