@@ -2,6 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "soft_tissue_sim/geometry/closest_point.h"
 
 namespace soft_tissue
 {
@@ -51,6 +55,32 @@ TissueDepth::TissueDepth(const TissueBody& tissue, bool closest_feature)
       tet_triangles_(trianglesOfTets(tissue.tets->size(), tissue.surface->triangle_tet))
 {}
 
+void TissueDepth::prepare(const Points& x)
+{
+  if (!closest_feature_)
+  {
+    return;
+  }
+  const std::vector<Triangle>& triangles = tissue_.surface->triangles;
+  boxes_.resize(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    boxes_[i] = Box3();
+    for (const Index node : triangles[i])
+    {
+      boxes_[i].extend(x[node]);
+    }
+  }
+  if (tree_.empty())
+  {
+    tree_.build(boxes_);
+  }
+  else
+  {
+    tree_.refit(boxes_);
+  }
+}
+
 bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
                            const DistanceField& field, ContactSample& sample) const
 {
@@ -88,25 +118,42 @@ bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const D
   {
     starts.add(*i);
   }
-  if (starts.count == 0)
+  const std::vector<Triangle>& triangles = tissue_.surface->triangles;
+  const auto onTriangle = [&](Index i) {
+    return closestOnTriangle(p, x[triangles[i][0]], x[triangles[i][1]], x[triangles[i][2]]);
+  };
+  Index nearest = -1;
+  TrianglePoint found;
+  found.squared_distance = std::numeric_limits<double>::infinity();
+  const auto consider = [&](Index i) {
+    const TrianglePoint point = onTriangle(i);
+    if (point.squared_distance < found.squared_distance)
+    {
+      nearest = i;
+      found = point;
+    }
+    return found.squared_distance;
+  };
+  std::for_each(starts.triangle.begin(), starts.triangle.begin() + starts.count, consider);
+  tree_.closest(p, consider, found.squared_distance);
+  if (nearest < 0)  // nothing here is finite
   {
     return false;
   }
-  const BoundaryPoint nearest =
-      descendToBoundary(p, x, *tissue_.surface, starts.triangle.data(), starts.count);
-  const Triangle& triangle = tissue_.surface->triangles[nearest.triangle];
+  const double distance = std::sqrt(found.squared_distance);
+  const Triangle& triangle = triangles[nearest];
   sample.count = 3;
   for (int k = 0; k < 3; ++k)
   {
     sample.node[k] = tissue_.first_node + triangle[k];
-    sample.coefficient[k] = -nearest.weights[k];
+    sample.coefficient[k] = -found.weights[k];
   }
-  sample.depth = nearest.distance;
+  sample.depth = distance;
   // On the surface the direction is lost in rounding; there it is the triangle's own normal.
   constexpr double kOnSurface = 1e-10;
   const Vec3 side = x[triangle[1]] - x[triangle[0]];
-  sample.gradient = nearest.distance > kOnSurface * side.norm()
-                        ? Vec3((p - nearest.point) / nearest.distance)
+  sample.gradient = distance > kOnSurface * side.norm()
+                        ? Vec3((p - found.point) / distance)
                         : Vec3((x[triangle[2]] - x[triangle[0]]).cross(side).normalized());
   return sample.depth > 0.0;
 }

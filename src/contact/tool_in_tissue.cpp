@@ -102,6 +102,7 @@ void ToolInTissue::hostEdges(const Host& host, Index number, const Box3& box)
 void ToolInTissue::addSamples(const Points& x, const DistanceField& field,
                               std::vector<ContactSample>& samples)
 {
+  depth_.prepare(x);
   for (std::size_t i = 0; i < point_host_.size(); ++i)
   {
     if (point_host_[i] >= 0)

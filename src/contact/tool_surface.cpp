@@ -1,5 +1,7 @@
 #include "soft_tissue_sim/contact/tool_surface.h"
 
+#include <algorithm>
+
 #include "soft_tissue_sim/mesh/grouping.h"
 
 namespace soft_tissue
@@ -12,7 +14,10 @@ SurfaceMesh chosenSurface(const RigidBodyShape& tool)
   constexpr std::size_t kMost = 2000;
   constexpr double kFinerBy = 0.8;
   constexpr int kTries = 20;
-  double max_edge = 0.5 * tool.innerRadius();
+  constexpr double kThinnest = 1e-3;  // of the whole tool
+  const Box3 bounds = tool.bounds();
+  double max_edge =
+      std::max(0.5 * tool.innerRadius(), kThinnest * (bounds.max - bounds.min).norm());
   SurfaceMesh surface = tool.surface(max_edge);
   const bool too_many = surface.nodes.size() > kMost;
   for (int i = 0; i < kTries; ++i)

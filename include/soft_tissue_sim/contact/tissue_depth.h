@@ -3,11 +3,18 @@
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/tissue_body.h"
 #include "soft_tissue_sim/field/distance_field.h"
+#include "soft_tissue_sim/geometry/aabb_tree.h"
 #include "soft_tissue_sim/geometry/barycentric.h"
 
 namespace soft_tissue
 {
-/** Depth of points inside a deformed tissue, with what it depends on. */
+/**
+ * Depth of points inside a deformed tissue, with what it depends on.
+ *
+ * The nearest boundary feature is the global one: the nearest of the features of the host's nodes
+ * gives a bound, a tree over the boundary searches below it. A local minimum would make the energy
+ * jump from tet to tet.
+ */
 class TissueDepth
 {
  public:
@@ -17,11 +24,15 @@ class TissueDepth
    */
   TissueDepth(const TissueBody& tissue, bool closest_feature);
 
+  /** Takes the positions of the body alone, m, that the next evaluations are at; the first ones
+   * finite. */
+  void prepare(const Points& x);
+
   /**
    * Sets position, depth, gradient, nodes and coefficients of a sample at p.
    * @param p       point in `tet`, m, world
    * @param coords  of `tet` at x
-   * @param x       positions of the body alone, N x 3, m
+   * @param x       positions of the body alone, N x 3, m, as last prepared
    * @param field   marched on all nodes of `tet`
    * @return false where the depth is zero
    */
@@ -36,6 +47,8 @@ class TissueDepth
 
   TissueBody tissue_;
   bool closest_feature_;
+  std::vector<Box3> boxes_;  ///< of the boundary triangles
+  AabbTree tree_;            ///< over those
   Adjacency tet_triangles_;  ///< rows: tets; boundary triangles of each
 };
 
