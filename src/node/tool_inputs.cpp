@@ -119,9 +119,14 @@ void TfInput::poll()
   }
   catch (const tf2::TransformException& error)
   {
-    gate_.reject(Rejection::unknown_frame, error.what());
+    if (found_)
+    {
+      gate_.reject(Rejection::unknown_frame, error.what());
+    }
+    found_ = false;
     return;
   }
+  found_ = true;
   const bool is_static = X_WT.header.stamp.isZero();
   if (!is_static && gate_.accepted() > 0 && X_WT.header.stamp == last_stamp_)
   {

@@ -20,7 +20,7 @@ class ForeignClockTest(unittest.TestCase):
     def setUpClass(cls):
         cls.clock = rospy.Publisher("/clock", Clock, queue_size=10)
         cls.client = SimClient()
-        wait_until(lambda: cls.clock.get_num_connections() > 1, "the node hears the clock")
+        wait_until(lambda: cls.clock.get_num_connections() > 0, "the node hears the clock")
         cls.now = 1000.0
         wait_until(cls.first_step_seen, "the node starts with the clock")
 

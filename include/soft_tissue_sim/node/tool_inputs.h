@@ -60,7 +60,7 @@ class TfInput
   TfInput(std::string frame, CommandGate& gate, const tf2_ros::Buffer& buffer,
           std::string world_frame);
 
-  /** Looks the frame up; what is not new is not a command. */
+  /** Looks the frame up; what is not new is not a command. A lost frame is rejected once. */
   void poll();
 
  private:
@@ -69,6 +69,7 @@ class TfInput
   const tf2_ros::Buffer& buffer_;
   std::string world_frame_;
   ros::Time last_stamp_;
+  bool found_ = true;
 };
 
 }  // namespace soft_tissue_sim
