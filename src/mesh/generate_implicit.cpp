@@ -18,15 +18,14 @@ struct Shape
   Vec3 low;              ///< box around it; for a flat bottom low.z is the plane
   Vec3 high;
   Vec3 anchor = Vec3::Zero();
+  double beside_anchor = 0.0;  ///< part of a cube by which a lattice node misses the anchor along x
   bool flat_bottom = false;
 };
 
-/** Lattice of that cube size with a node at, or for a flat bottom next to, the anchor; cut to
- * shape. */
+/** Lattice of that cube size with a node at or near the anchor; cut to shape. */
 WorkMesh cutLattice(const Shape& shape, double cube_m)
 {
-  // A flat bottom fixes the height of the layers: take the one of corners or centres that is
-  // nearest.
+  // A flat bottom fixes the layers' heights: align the nearest one, of corners or of centres.
   const long half_layers = std::lround((shape.anchor.z() - shape.low.z()) / (0.5 * cube_m));
   const double shift = shape.flat_bottom && half_layers % 2 == 1 ? 0.5 : 0.0;
   std::array<int, 3> cells;
@@ -35,7 +34,8 @@ WorkMesh cutLattice(const Shape& shape, double cube_m)
   {
     const bool fixed = axis == 2 && shape.flat_bottom;
     const double below = std::ceil((shape.anchor[axis] - shape.low[axis]) / cube_m) + 1.0 + shift;
-    low[axis] = fixed ? shape.low[axis] : shape.anchor[axis] - below * cube_m;
+    const double beside = axis == 0 ? shape.beside_anchor : 0.0;
+    low[axis] = fixed ? shape.low[axis] : shape.anchor[axis] - (below + beside) * cube_m;
     cells[axis] = static_cast<int>(std::ceil((shape.high[axis] - low[axis]) / cube_m)) + 1;
   }
   WorkMesh work = makeLattice(low, cells, cube_m, shape.flat_bottom);
@@ -150,6 +150,7 @@ TetMesh makeLobe(std::size_t tets)
   lobe.low = Vec3(-0.050, -0.042, 0.0);
   lobe.high = Vec3(0.050, 0.042, 0.041);
   lobe.anchor = kNoduleCentre;
+  lobe.beside_anchor = 0.15;  // gives a coarse nodule more than one node inside
   lobe.flat_bottom = true;
   constexpr double kVolume_m3 = 1.5e-4;
   return meshShape(lobe, tets, std::cbrt(12.0 * kVolume_m3 / static_cast<double>(tets)));

@@ -76,12 +76,21 @@ std::array<int, 3> cellsForBox(const Vec3& size_m, std::size_t tets)
 {
   needSize(size_m.minCoeff() > 0.0 && size_m.maxCoeff() < 1e6, "0 < size_m < 1e6");
   needSize(tets >= 6 && tets <= 20000000, "6 <= tets <= 20000000");
-  const double edge = std::cbrt(size_m.prod() * 6.0 / static_cast<double>(tets));
-  std::array<int, 3> cells;
+  const double wanted = static_cast<double>(tets) / 6.0;
+  const double edge = std::cbrt(size_m.prod() / wanted);
+  int longest = 0;
+  size_m.maxCoeff(&longest);
+  std::array<int, 3> cells = {1, 1, 1};
+  double across = 1.0;  // cells in a layer across the longest edge
   for (int axis = 0; axis < 3; ++axis)
   {
-    cells[axis] = std::max(1, static_cast<int>(std::lround(size_m[axis] / edge)));
+    if (axis != longest)
+    {
+      cells[axis] = std::max(1, static_cast<int>(std::lround(size_m[axis] / edge)));
+      across *= cells[axis];
+    }
   }
+  cells[longest] = std::max(1, static_cast<int>(std::lround(wanted / across)));
   return cells;
 }
 

@@ -96,7 +96,7 @@ std::vector<Rejection> rejections()
       {"meditKeyword", "a.mesh", replaced(medit, "Corners", "Curses"), ":12: ", "'Curses'"},
       {"meditDimension", "a.mesh", replaced(medit, "Dimension 3", "Dimension 2"), ":3: ", "= 2"},
       {"meditRange", "a.mesh", replaced(medit, "Tetrahedra\n2 \n1 ", "Tetrahedra\n2 \n7 "),
-       ":14: ", "node 7 does not exist, must be in [1, 5]"},
+       ":16: ", "node 7 does not exist, must be in [1, 5]"},
       {"plyNoZ", "a.ply", replaced(ply, "double z", "double w"), ":4: ", "no property z"},
       {"plyTetOfThree", "a.ply", replaced(ply, "\n4 0 1 2 3", "\n3 0 1 2"),
        ":16: ", "has 3 nodes, must have 4"},
