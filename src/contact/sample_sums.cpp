@@ -39,7 +39,7 @@ void addContactGradient(const std::vector<ContactSample>& samples, Points& gradi
 {
   for (const ContactSample& s : samples)
   {
-    const Vec3 push = s.pressureForce() * s.gradient;
+    const Vec3 push = s.force * s.gradient;
     for (int j = 0; j < s.count; ++j)
     {
       gradient[s.node[j]] += s.coefficient[j] * push;
@@ -51,6 +51,10 @@ void addContactHessian(const std::vector<ContactSample>& samples, BlockMatrix& h
 {
   for (const ContactSample& s : samples)
   {
+    if (s.stiffness_area == 0.0)
+    {
+      continue;
+    }
     const Mat3 gg = s.stiffness_area * s.gradient * s.gradient.transpose();
     for (int i = 0; i < s.count; ++i)
     {

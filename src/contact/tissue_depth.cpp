@@ -103,7 +103,7 @@ bool TissueDepth::interpolate(const Vec3& p, const Tet& tet, const TetCoordinate
   }
   sample.depth = weights.dot(depth);
   sample.gradient = coords.gradients * depth;
-  return sample.depth > 0.0;
+  return true;
 }
 
 bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
@@ -155,7 +155,7 @@ bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const D
   sample.gradient = distance > kOnSurface * side.norm()
                         ? Vec3((p - found.point) / distance)
                         : Vec3((x[triangle[2]] - x[triangle[0]]).cross(side).normalized());
-  return sample.depth > 0.0;
+  return true;
 }
 
 }  // namespace soft_tissue

@@ -1,7 +1,9 @@
 #include "tissue_in_tool.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "moving_ends.h"
 #include "quadrature.h"
 #include "soft_tissue_sim/collision/inside_intervals.h"
 
@@ -120,6 +122,7 @@ bool TissueInTool::measure(const Vec3& p, double area, ContactSample& sample) co
   sample.gradient = -(X_WT_.linear() * at.normal);
   sample.area = 0.5 * area;  // the two directions of the pair are averaged
   sample.stiffness_area = options_.stiffness_pa_per_m * sample.area;
+  sample.force = sample.stiffness_area * sample.depth;
   sample.tool_sign = -1;
   return sample.depth > 0.0;
 }
@@ -137,9 +140,8 @@ void TissueInTool::addPoint(const Element& node, const Points& x,
   }
 }
 
-// Cells wholly inside the tool keep their quadrature points: value and gradient belong together
-// exactly. The part of a cell behind the surface starts from depth zero and is short against the
-// tool's radius: three points integrate it to far below the accuracy of the model.
+// Cells wholly inside the tool keep their quadrature points; in a cell that crosses the surface
+// they move with it, and MovingEnds accounts for that.
 void TissueInTool::addEdge(const Element& edge, const Points& x,
                            std::vector<ContactSample>& samples) const
 {
@@ -158,20 +160,38 @@ void TissueInTool::addEdge(const Element& edge, const Points& x,
     const SignedDistance at = tool_.distance(X_TW_ * Vec3(a + parameter * along));
     return SegmentDistance{at.distance, at.normal.dot(along_T)};
   };
-  const auto add = [&](double parameter, double weight) {
-    ContactSample sample;
-    if (measure(a + parameter * along, weight * edge.area, sample))
+  const auto sampleAt = [&](double parameter, double area, ContactSample& sample) {
+    sample.count = 2;
+    sample.node[0] = tissue_.first_node + nodes[0];
+    sample.node[1] = tissue_.first_node + nodes[1];
+    sample.coefficient[0] = 1.0 - parameter;
+    sample.coefficient[1] = parameter;
+    return measure(a + parameter * along, area, sample);
+  };
+  const auto addStretch = [&](const InsideInterval& inside) {
+    MovingEnds ends(inside.where, along);
+    forEachPoint(kGauss3, inside.where, [&](double parameter, double weight) {
+      ContactSample sample;
+      if (sampleAt(parameter, weight * edge.area, sample))
+      {
+        ends.count(sample, parameter);
+        samples.push_back(sample);
+      }
+    });
+    for (const bool at_begin : {true, false})
     {
-      sample.count = 2;
-      sample.node[0] = tissue_.first_node + nodes[0];
-      sample.node[1] = tissue_.first_node + nodes[1];
-      sample.coefficient[0] = 1.0 - parameter;
-      sample.coefficient[1] = parameter;
-      samples.push_back(sample);
+      ContactSample sample;
+      if (at_begin ? inside.begin_on_surface : inside.end_on_surface)
+      {
+        sampleAt(at_begin ? inside.where.begin : inside.where.end, edge.area, sample);
+        if (ends.close(sample, at_begin))
+        {
+          samples.push_back(sample);
+        }
+      }
     }
   };
-  forEachInsideInterval(distance, along.norm(), edge.cells,
-                        [&](const Interval& inside) { forEachPoint(kGauss3, inside, add); });
+  forEachInsideInterval(distance, along.norm(), edge.cells, addStretch);
 }
 
 }  // namespace soft_tissue

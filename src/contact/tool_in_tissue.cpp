@@ -1,5 +1,6 @@
 #include "tool_in_tissue.h"
 
+#include "moving_ends.h"
 #include "quadrature.h"
 #include "soft_tissue_sim/geometry/clip.h"
 
@@ -105,80 +106,108 @@ void ToolInTissue::addSamples(const Points& x, const DistanceField& field,
   depth_.prepare(x);
   for (std::size_t i = 0; i < point_host_.size(); ++i)
   {
-    if (point_host_[i] >= 0)
+    ContactSample sample;
+    if (point_host_[i] >= 0 &&
+        measure(nodes_W_[i], hosts_[point_host_[i]], surface_.node_area[i], x, field, sample))
     {
-      add(nodes_W_[i], hosts_[point_host_[i]], surface_.node_area[i], x, field, samples);
+      samples.push_back(sample);
     }
   }
   for (Index i = 0; options_.segments && i < static_cast<Index>(surface_.edges.size()); ++i)
   {
     if (options_.closest_feature)
     {
-      addClosest(i, x, field, samples);
+      addStretches(i, x, field, samples);
     }
     else
     {
-      addInterpolated(i, x, field, samples);
+      addPieces(i, x, field, samples);
     }
   }
 }
 
 // Interpolated depth is linear on each piece and continuous from piece to piece: two Gauss points
-// integrate its square and the gradient of that exactly, so both belong together however pieces
-// move.
-void ToolInTissue::addInterpolated(Index edge, const Points& x, const DistanceField& field,
-                                   std::vector<ContactSample>& samples)
+// integrate its square and the gradient of that exactly, however the pieces move.
+void ToolInTissue::addPieces(Index edge, const Points& x, const DistanceField& field,
+                             std::vector<ContactSample>& samples)
 {
   for (const SegmentPiece& piece : edge_hosts_.disjointPieces(edge))
   {
     forEachPoint(kGauss2, piece.where, [&](double parameter, double weight) {
-      add(edgePoint(edge, parameter), hosts_[piece.host], weight * surface_.edge_area[edge], x,
-          field, samples);
+      ContactSample sample;
+      if (measure(edgePoint(edge, parameter), hosts_[piece.host], weight * surface_.edge_area[edge],
+                  x, field, sample))
+      {
+        samples.push_back(sample);
+      }
     });
   }
 }
 
-// A true distance is not linear across a tet, and quadrature points moving with the tets' faces
-// would part value from gradient. So the rule is laid over whole stretches inside the tissue: an
-// edge wholly inside has fixed points (exactly consistent); one that crosses the surface starts
-// from depth zero there, where the distance is linear up to the first change of feature.
-void ToolInTissue::addClosest(Index edge, const Points& x, const DistanceField& field,
-                              std::vector<ContactSample>& samples)
+// A true distance is not linear across a tet. The rule is laid over whole stretches inside the
+// tissue, so only the tissue's surface moves its points, and MovingEnds accounts for that.
+void ToolInTissue::addStretches(Index edge, const Points& x, const DistanceField& field,
+                                std::vector<ContactSample>& samples)
 {
   const std::vector<SegmentPiece>& pieces = edge_hosts_.disjointPieces(edge);
-  for (std::size_t first = 0; first < pieces.size();)
+  for (std::size_t first = 0, last = 0; first < pieces.size(); first = ++last)
   {
-    std::size_t last = first;
     while (last + 1 < pieces.size() &&
            pieces[last + 1].where.begin - pieces[last].where.end < kTouching)
     {
       ++last;
     }
+    const Interval stretch = {pieces[first].where.begin, pieces[last].where.end};
+    MovingEnds ends(stretch, edgePoint(edge, 1.0) - edgePoint(edge, 0.0));
     std::size_t at = first;
-    forEachPoint(kGauss2, {pieces[first].where.begin, pieces[last].where.end},
-                 [&](double parameter, double weight) {
-                   while (at < last && pieces[at].where.end < parameter)
-                   {
-                     ++at;
-                   }
-                   add(edgePoint(edge, parameter), hosts_[pieces[at].host],
-                       weight * surface_.edge_area[edge], x, field, samples);
-                 });
-    first = last + 1;
+    const auto sampleAt = [&](double parameter, double area, ContactSample& sample) {
+      while (at < last && pieces[at].where.end < parameter)
+      {
+        ++at;
+      }
+      return measure(edgePoint(edge, parameter), hosts_[pieces[at].host], area, x, field, sample);
+    };
+    ContactSample begin;
+    if (stretch.begin > 0.0)
+    {
+      sampleAt(stretch.begin, surface_.edge_area[edge], begin);
+    }
+    forEachPoint(kGauss2, stretch, [&](double parameter, double weight) {
+      ContactSample sample;
+      if (sampleAt(parameter, weight * surface_.edge_area[edge], sample))
+      {
+        ends.count(sample, parameter);
+        samples.push_back(sample);
+      }
+    });
+    if (stretch.begin > 0.0 && ends.close(begin, true))
+    {
+      samples.push_back(begin);
+    }
+    ContactSample end;
+    if (stretch.end < 1.0)
+    {
+      sampleAt(stretch.end, surface_.edge_area[edge], end);
+      if (ends.close(end, false))
+      {
+        samples.push_back(end);
+      }
+    }
   }
 }
 
-void ToolInTissue::add(const Vec3& p, const Host& host, double area, const Points& x,
-                       const DistanceField& field, std::vector<ContactSample>& samples) const
+bool ToolInTissue::measure(const Vec3& p, const Host& host, double area, const Points& x,
+                           const DistanceField& field, ContactSample& sample) const
 {
-  ContactSample sample;
-  if (area > 0.0 && depth_.evaluate(p, host.tet, host.coords, x, field, sample))
+  if (!(area > 0.0) || !depth_.evaluate(p, host.tet, host.coords, x, field, sample))
   {
-    sample.area = 0.5 * area;  // the two directions of the pair are averaged
-    sample.stiffness_area = options_.stiffness_pa_per_m * sample.area;
-    sample.tool_sign = 1;
-    samples.push_back(sample);
+    return false;
   }
+  sample.area = 0.5 * area;  // the two directions of the pair are averaged
+  sample.stiffness_area = options_.stiffness_pa_per_m * sample.area;
+  sample.force = sample.stiffness_area * sample.depth;
+  sample.tool_sign = 1;
+  return sample.depth > 0.0;
 }
 
 Vec3 ToolInTissue::edgePoint(Index edge, double parameter) const

@@ -41,12 +41,12 @@ class ToolInTissue
 
   void hostPoints(const Host& host, Index number, const Box3& box);
   void hostEdges(const Host& host, Index number, const Box3& box);
-  void addInterpolated(Index edge, const Points& x, const DistanceField& field,
-                       std::vector<ContactSample>& samples);
-  void addClosest(Index edge, const Points& x, const DistanceField& field,
-                  std::vector<ContactSample>& samples);
-  void add(const Vec3& p, const Host& host, double area, const Points& x,
-           const DistanceField& field, std::vector<ContactSample>& samples) const;
+  void addPieces(Index edge, const Points& x, const DistanceField& field,
+                 std::vector<ContactSample>& samples);
+  void addStretches(Index edge, const Points& x, const DistanceField& field,
+                    std::vector<ContactSample>& samples);
+  bool measure(const Vec3& p, const Host& host, double area, const Points& x,
+               const DistanceField& field, ContactSample& sample) const;
   Vec3 edgePoint(Index edge, double parameter) const;
 
   TissueBody tissue_;

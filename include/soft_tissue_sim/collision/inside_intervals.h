@@ -15,6 +15,15 @@ struct SegmentDistance
   double slope = 0.0;
 };
 
+/** Part of a segment that is inside, and which of its ends are on the surface rather than ends of
+ * cells. */
+struct InsideInterval
+{
+  Interval where;
+  bool begin_on_surface = false;
+  bool end_on_surface = false;
+};
+
 namespace detail
 {
 /** Parameter where the distance is zero between one point inside and one outside (regula falsi,
@@ -101,15 +110,17 @@ void forEachInsideInterval(const Distance& distance, double length, int cells, c
     const double f1 = at_end.distance;
     if (f0 < 0.0 && f1 < 0.0)
     {
-      visit(Interval{begin, end});
+      visit(InsideInterval{{begin, end}, false, false});
     }
     else if (f0 < 0.0)
     {
-      visit(Interval{begin, detail::surfaceCrossing(distance, begin, f0, end, f1)});
+      visit(InsideInterval{
+          {begin, detail::surfaceCrossing(distance, begin, f0, end, f1)}, false, true});
     }
     else if (f1 < 0.0)
     {
-      visit(Interval{detail::surfaceCrossing(distance, end, f1, begin, f0), end});
+      visit(InsideInterval{
+          {detail::surfaceCrossing(distance, end, f1, begin, f0), end}, true, false});
     }
     else if (f0 + f1 < cell_length && at_begin.slope < 0.0 && at_end.slope > 0.0)
     {
@@ -117,8 +128,10 @@ void forEachInsideInterval(const Distance& distance, double length, int cells, c
       if (bottom >= 0.0)
       {
         const double f = distance(bottom).distance;
-        visit(Interval{detail::surfaceCrossing(distance, bottom, f, begin, f0),
-                       detail::surfaceCrossing(distance, bottom, f, end, f1)});
+        visit(InsideInterval{{detail::surfaceCrossing(distance, bottom, f, begin, f0),
+                              detail::surfaceCrossing(distance, bottom, f, end, f1)},
+                             true,
+                             true});
       }
     }
     begin = end;

@@ -13,6 +13,10 @@ namespace soft_tissue
  * end as samples: energy 1/2 kappa area d^2, and d's derivative by node j is coefficient[j] *
  * gradient. The two directions are averaged by halving the area of each: areas of one direction add
  * up to half of the touching surface, and energies and forces are plain sums over all samples.
+ *
+ * The force is kappa area depth. Where an edge is clipped at a surface, the quadrature points move
+ * with that surface; the derivative of that is one more sample at the clip point, with a force
+ * (small, of either sign) but without depth and area.
  */
 struct ContactSample
 {
@@ -20,20 +24,17 @@ struct ContactSample
 
   Vec3 position = Vec3::Zero();         ///< m, world
   Vec3 gradient = Vec3::Zero();         ///< of d by the intruding point; unit for a true distance
-  double depth = 0.0;                   ///< m, > 0
+  double depth = 0.0;                   ///< m, >= 0
   double stiffness_area = 0.0;          ///< kappa times area, N/m
   double area = 0.0;                    ///< m^2, half of the surface it stands for
+  double force = 0.0;                   ///< N, against the gradient on the intruder
   int count = 0;                        ///< nodes that d depends on
   std::array<Index, kMaxNodes> node{};  ///< rows of x
   std::array<double, kMaxNodes> coefficient{};  ///< intruder weights, minus host weights
   int tool_sign = 0;                            ///< +1: the tool intrudes; -1: the tissue does
 
-  /** Force along the gradient that opens the overlap acts on the intruder: this much against it, N.
-   */
-  double pressureForce() const { return stiffness_area * depth; }
-
   /** Force of the tissue on the tool, N, world; it acts at `position`. */
-  Vec3 forceOnTool() const { return -tool_sign * pressureForce() * gradient; }
+  Vec3 forceOnTool() const { return -tool_sign * force * gradient; }
 };
 
 }  // namespace soft_tissue

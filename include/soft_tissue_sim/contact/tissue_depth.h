@@ -34,7 +34,7 @@ class TissueDepth
    * @param coords  of `tet` at x
    * @param x       positions of the body alone, N x 3, m, as last prepared
    * @param field   marched on all nodes of `tet`
-   * @return false where the depth is zero
+   * @return false where no part of the boundary is at a finite distance
    */
   bool evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
                 const DistanceField& field, ContactSample& sample) const;
