@@ -108,6 +108,7 @@ def plot_map(presses, regions, path):
     if regions:
         axes.legend(loc="upper right")
     figure.colorbar(points, label="peak force [N]")
+    axes.margins(0.06)
     axes.set(xlabel="x [mm]", ylabel="y [mm]", title="Peak force of each press", aspect="equal")
     figure.tight_layout()
     figure.savefig(path, dpi=120)
