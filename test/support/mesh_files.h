@@ -2,102 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "soft_tissue_sim/mesh/tet_mesh.h"
+#include "support/mesh_file_content.h"
+#include "support/mesh_surface_files.h"
 
 namespace soft_tissue::test
 {
-/** A file's content under construction: values as words or as raw bytes. */
-class Content
-{
- public:
-  explicit Content(bool binary = false, bool high_byte_first = false)
-      : binary_(binary), swap_(high_byte_first)
-  {}
-
-  Content& text(const std::string& words)
-  {
-    out_ += words;
-    return *this;
-  }
-
-  template <typename T>
-  Content& value(T number)
-  {
-    if (binary_)
-    {
-      char bytes[sizeof(T)];
-      std::memcpy(bytes, &number, sizeof(T));
-      if (swap_)
-      {
-        std::reverse(bytes, bytes + sizeof(T));
-      }
-      out_.append(bytes, sizeof(T));
-      return *this;
-    }
-    std::ostringstream word;
-    word.precision(17);
-    word << +number << ' ';
-    out_ += word.str();
-    return *this;
-  }
-
-  template <typename T>
-  Content& point(const Vec3& p)
-  {
-    return value(static_cast<T>(p.x())).value(static_cast<T>(p.y())).value(static_cast<T>(p.z()));
-  }
-
-  const std::string& str() const { return out_; }
-
- private:
-  std::string out_;
-  bool binary_;
-  bool swap_;
-};
-
-/** A folder for a test's files, removed at the end. */
-class ScratchFolder
-{
- public:
-  ScratchFolder()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "mesh_test_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path_); }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  /** Writes a file and returns its path. */
-  std::string write(const std::string& name, const std::string& content) const
-  {
-    const std::string path = (path_ / name).string();
-    std::ofstream(path, std::ios::binary) << content;
-    return path;
-  }
-  std::string path(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-/** One mesh as one file of some format; TetGen needs a second file. */
-struct SampleFile
-{
-  std::string format;  ///< as LoadReport names it
-  std::string name;
-  std::string content;
-  std::string partner_name;
-  std::string partner;
-};
-
 inline std::string gmsh1Text(const TetMesh& mesh)
 {
   Content out;
@@ -368,118 +281,6 @@ inline std::vector<SampleFile> volumeFiles(const TetMesh& mesh)
           {"tetgen ascii", "a.ele", tetgenEleText(mesh, 1), "a.node", tetgenNodeText(mesh, 1)},
           {"medit ascii", "a.mesh", meditText(mesh), "", ""},
           {"ply ascii", "a.ply", tetPlyText(mesh), "", ""}};
-}
-
-inline std::string stlText(const TriMesh& mesh)
-{
-  Content out;
-  out.text("solid a name\n");
-  for (const Triangle& triangle : mesh.triangles)
-  {
-    out.text("facet normal 0 0 1\n outer loop\n");
-    for (const Index node : triangle)
-    {
-      out.text("  vertex ").point<double>(mesh.nodes[node]).text("\n");
-    }
-    out.text(" endloop\nendfacet\n");
-  }
-  return out.text("endsolid a name\n").str();
-}
-
-inline std::string stlBinary(const TriMesh& mesh)
-{
-  Content out(true);
-  out.text("solid but binary" + std::string(64, ' '));
-  out.value(static_cast<std::uint32_t>(mesh.triangles.size()));
-  for (const Triangle& triangle : mesh.triangles)
-  {
-    out.point<float>(Vec3::Zero());
-    for (const Index node : triangle)
-    {
-      out.point<float>(mesh.nodes[node]);
-    }
-    out.value(std::uint16_t{0});
-  }
-  return out.str();
-}
-
-inline std::string objText(const TriMesh& mesh)
-{
-  Content out;
-  out.text("# sample\no body\nvn 0 0 1\n");
-  for (const Vec3& node : mesh.nodes)
-  {
-    out.text("v ").point<double>(node).text("\n");
-  }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-  {
-    out.text("f");
-    for (const Index node : mesh.triangles[i])
-    {
-      const auto number =
-          static_cast<long>(i % 2 == 0 ? node + 1 : node - static_cast<long>(mesh.nodes.size()));
-      out.text(" " + std::to_string(number) + (i % 3 == 0 ? "//1" : ""));
-    }
-    out.text("\n");
-  }
-  return out.str();
-}
-
-inline std::string plyContent(const TriMesh& mesh, const std::string& encoding)
-{
-  Content out(encoding != "ascii", encoding == "binary_big_endian");
-  out.text("ply\nformat " + encoding + " 1.0\nelement vertex " + std::to_string(mesh.nodes.size()) +
-           "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\n" +
-           "element face " + std::to_string(mesh.triangles.size()) +
-           "\nproperty list uchar int vertex_index\nend_header\n");
-  for (const Vec3& node : mesh.nodes)
-  {
-    out.point<double>(node).value(std::uint8_t{200});
-  }
-  for (const Triangle& triangle : mesh.triangles)
-  {
-    out.value(std::uint8_t{3});
-    for (const Index node : triangle)
-    {
-      out.value(std::int32_t{node});
-    }
-  }
-  return out.str();
-}
-
-inline std::string vtkPolyContent(const TriMesh& mesh, bool binary)
-{
-  Content out(binary, true);
-  out.text("# vtk DataFile Version 4.2\nsample\n").text(binary ? "BINARY\n" : "ASCII\n");
-  out.text("DATASET POLYDATA\nPOINTS " + std::to_string(mesh.nodes.size()) + " float\n");
-  for (const Vec3& node : mesh.nodes)
-  {
-    out.point<float>(node);
-  }
-  out.text("\nPOLYGONS " + std::to_string(mesh.triangles.size()) + " " +
-           std::to_string(4 * mesh.triangles.size()) + "\n");
-  for (const Triangle& triangle : mesh.triangles)
-  {
-    out.value(std::int32_t{3});
-    for (const Index node : triangle)
-    {
-      out.value(std::int32_t{node});
-    }
-  }
-  return out.text("\n").str();
-}
-
-/** The mesh in every surface format that is read. */
-inline std::vector<SampleFile> surfaceFiles(const TriMesh& mesh)
-{
-  return {{"stl ascii", "a.stl", stlText(mesh), "", ""},
-          {"stl binary", "a.stl", stlBinary(mesh), "", ""},
-          {"obj", "a.obj", objText(mesh), "", ""},
-          {"ply ascii", "a.ply", plyContent(mesh, "ascii"), "", ""},
-          {"ply binary", "a.ply", plyContent(mesh, "binary_little_endian"), "", ""},
-          {"ply binary", "a.ply", plyContent(mesh, "binary_big_endian"), "", ""},
-          {"vtk 4.2 ascii POLYDATA", "a.vtk", vtkPolyContent(mesh, false), "", ""},
-          {"vtk 4.2 binary POLYDATA", "a.vtk", vtkPolyContent(mesh, true), "", ""}};
 }
 
 }  // namespace soft_tissue::test
