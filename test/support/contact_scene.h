@@ -64,8 +64,7 @@ class ExhaustiveField : public DistanceField
  public:
   explicit ExhaustiveField(const BoundarySurface& surface, int* marches = nullptr)
       : surface_(surface), marches_(marches)
-  {
-  }
+  {}
 
   void march(const Points& x) override
   {
