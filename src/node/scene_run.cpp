@@ -98,16 +98,41 @@ class Progress
   soft_tissue::Timer timer_;
 };
 
-void writeText(const std::string& path, const std::string& text)
+/** The summary's file, opened before the run: a wrong name must not cost a night. */
+class SummaryFile
 {
-  std::ofstream stream(path);
-  stream << text;
-  stream.close();
-  if (!stream)
+ public:
+  explicit SummaryFile(const std::string& path) : path_(path)
   {
-    throw Error("json " + path + ": can't be written");
+    if (!path.empty())
+    {
+      stream_.open(path);
+      check();
+    }
   }
-}
+
+  void write(const std::string& text)
+  {
+    if (!path_.empty())
+    {
+      stream_ << text;
+      stream_.close();
+      check();
+    }
+  }
+
+ private:
+  void check() const
+  {
+    if (!stream_)
+    {
+      throw Error("json " + path_ + ": can't be written");
+    }
+  }
+
+  std::string path_;
+  std::ofstream stream_;
+};
 
 /** Everything that listens to finished steps. */
 struct Recorders
@@ -172,6 +197,7 @@ void runScene(const RunOptions& options)
     recorders.csv = std::make_unique<CsvRecorder>(options.csv, info.tools);
   }
 
+  SummaryFile summary_file(options.json);
   Progress progress(steps, options.quiet);
   soft_tissue::Snapshot snapshot;
   const soft_tissue::Timer timer;
@@ -193,10 +219,7 @@ void runScene(const RunOptions& options)
   {
     recorders.csv->close();
   }
-  if (!options.json.empty())
-  {
-    writeText(options.json, recorders.summary.json(wall_s));
-  }
+  summary_file.write(recorders.summary.json(wall_s));
   if (!options.quiet)
   {
     std::printf("%s", recorders.summary.text(wall_s).c_str());
