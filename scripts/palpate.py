@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Writes a bag of probe poses that palpate a lobe: a raster of presses, each from above, held, and taken back.
+"""Palpates a lobe: commands a probe, or writes the commands to a bag, in a raster of presses, each from above, held,
+and taken back.
 
 Every press goes the same depth below the height at which the round tip first touches the undeformed
 surface, so that differences in force are differences in the tissue.
 """
 import argparse
+import itertools
 import os
 import sys
 
@@ -23,7 +25,7 @@ def default_mesh():
 def parse_arguments():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.ArgumentDefaultsHelpFormatter)
-    parser.add_argument("--out", required=True, help="bag to write")
+    parser.add_argument("--out", help="bag to write; without one the commands are published, over and over")
     parser.add_argument("--mesh", default=None,
                         help="Gmsh 2.2 ASCII mesh in metres; default: the package's lobe_5k.msh")
     parser.add_argument("--topic", default="/sim_node/probe/servo_cp", help="topic of the poses")
@@ -41,7 +43,7 @@ def parse_arguments():
     parser.add_argument("--hold_s", type=float, default=0.1, help="time at full depth")
     parser.add_argument("--travel_m_per_s", type=float, default=0.1, help="speed between presses")
     parser.add_argument("--rate_hz", type=float, default=200.0, help="poses a second")
-    return parser.parse_args()
+    return parser.parse_args(rospy.myargv()[1:])
 
 
 def read_gmsh(path):
@@ -133,22 +135,41 @@ def palpation_path(arguments, nodes, triangles):
     return np.array(way)
 
 
+def poses(arguments, way):
+    """Time from the start and pose of every command, without its stamp."""
+    for number, time in enumerate(np.arange(0.0, way[-1, 0], 1.0 / arguments.rate_hz)):
+        message = PoseStamped()
+        message.header.seq = number
+        message.header.frame_id = "world"
+        position = message.pose.position
+        position.x, position.y, position.z = (np.interp(time, way[:, 0], way[:, axis])
+                                              for axis in (1, 2, 3))
+        position.z += arguments.tip_below_origin_m
+        message.pose.orientation.w = 1.0
+        yield time, message
+
+
 def write_bag(arguments, way):
     start = 1.0  # stamps of zero would mean "now"
-    times = np.arange(0.0, way[-1, 0], 1.0 / arguments.rate_hz)
+    count = 0
     with rosbag.Bag(arguments.out, "w", compression=rosbag.Compression.LZ4) as bag:
-        for number, time in enumerate(times):
-            message = PoseStamped()
-            message.header.seq = number
+        for time, message in poses(arguments, way):
             message.header.stamp = rospy.Time.from_sec(start + time)
-            message.header.frame_id = "world"
-            position = message.pose.position
-            position.x, position.y, position.z = (np.interp(time, way[:, 0], way[:, axis])
-                                                  for axis in (1, 2, 3))
-            position.z += arguments.tip_below_origin_m
-            message.pose.orientation.w = 1.0
             bag.write(arguments.topic, message, message.header.stamp)
-    return len(times)
+            count += 1
+    return count
+
+
+def publish(arguments, way):
+    rospy.init_node("palpate")
+    publisher = rospy.Publisher(arguments.topic, PoseStamped, queue_size=1)
+    rate = rospy.Rate(arguments.rate_hz)
+    for _, message in itertools.chain.from_iterable(poses(arguments, way) for _ in itertools.count()):
+        if rospy.is_shutdown():
+            return
+        message.header.stamp = rospy.Time.now()
+        publisher.publish(message)
+        rate.sleep()
 
 
 def main():
@@ -157,12 +178,18 @@ def main():
     try:
         nodes, tets = read_gmsh(mesh)
         way = palpation_path(arguments, nodes, surface_triangles(tets))
-        count = write_bag(arguments, way)
+        presses = "%d presses of %g mm in %.1f s" % (arguments.grid[0] * arguments.grid[1],
+                                                     1e3 * arguments.depth_m, way[-1, 0])
+        if arguments.out:
+            count = write_bag(arguments, way)
+            print("%s: %d poses, %s" % (arguments.out, count, presses))
+        else:
+            print("%s: %s, over and over" % (arguments.topic, presses))
+            publish(arguments, way)
+    except rospy.ROSInterruptException:
+        pass
     except (OSError, ValueError) as error:
-        sys.exit("palpation_bag.py: %s" % error)
-    print("%s: %d poses, %d presses of %g mm, %.1f s" %
-          (arguments.out, count, arguments.grid[0] * arguments.grid[1], 1e3 * arguments.depth_m,
-           way[-1, 0]))
+        sys.exit("palpate.py: %s" % error)
 
 
 if __name__ == "__main__":

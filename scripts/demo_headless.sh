@@ -1,0 +1,51 @@
+# Sourced by demo: the live part on a virtual display, ended after a while, with a picture of rviz in contact.
+
+# wait_for SECONDS COMMAND...  until the command succeeds
+wait_for()
+{
+  local tries=$((2 * $1))
+  shift
+  until "$@" > /dev/null 2>&1; do
+    ((tries-- > 0)) || return 1
+    sleep 0.5
+  done
+}
+
+# live_on_virtual_display FOLDER SECONDS  leaves rviz.png, live_stats.csv and logs in FOLDER
+live_on_virtual_display()
+{
+  local out=$1 seconds=$2 logs=$1/logs node=/sim_node
+  mkdir -p "$logs"
+  # A master and a display of our own: those of others stay as they are.
+  local port
+  port=$(python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])')
+  export ROS_MASTER_URI=http://localhost:$port LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1
+  in_background "$logs/xvfb.log" Xvfb -displayfd 3 -screen 0 1280x1024x24 +extension GLX -nolisten tcp \
+    3> "$logs/display"
+  wait_for 20 test -s "$logs/display" || fail "no virtual display: see $logs/xvfb.log"
+  export DISPLAY=:$(< "$logs/display")
+
+  in_background "$logs/launch.log" roslaunch -p "$port" soft_tissue_sim demo.launch rviz:=true
+  wait_for 60 grep -q "simulating" "$logs/launch.log" || fail "the node did not start: see $logs/launch.log"
+  in_background "$out/live_stats.csv" rostopic echo -p "$node/stats"
+  wait_for 60 subscribed_by rviz "$node/markers" || fail "rviz did not come up: see $logs/launch.log"
+
+  echo "recording and watching for $seconds s"
+  in_background "$logs/record.log" rosbag record --quiet --lz4 --duration "$seconds" -O "$out/live.bag" \
+    "$node/stats" "$node/probe/servo_cp" "$node/probe/measured_cp" "$node/probe/body/measured_cf"
+  wait $! || fail "recording failed: see $logs/record.log"
+  # rviz draws a little late: let it catch up with a world that stands still.
+  rosrun soft_tissue_sim pause_in_contact.py || fail "the probe never pressed the tissue: see $logs/launch.log"
+  sleep 2
+  import -window root "$out/rviz.png"
+  mogrify -trim +repage "$out/rviz.png"
+  end_all
+  local colours
+  colours=$(identify -format %k "$out/rviz.png")
+  ((colours > 200)) || fail "rviz drew nothing: $out/rviz.png has $colours colours"
+}
+
+subscribed_by()
+{
+  rostopic info "$2" | sed -n '/^Subscribers/,$p' | grep -q "/$1"
+}
