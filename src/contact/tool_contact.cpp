@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 #include <utility>
 
+#include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/contact/sample_sums.h"
 #include "tissue_in_tool.h"
@@ -57,7 +59,13 @@ class ToolContact::Impl
         tool_(tool),
         tool_in_tissue_(tissue, tool_, options),
         tissue_in_tool_(tissue, tool_, options)
-  {}
+  {
+    if (options.friction != 0.0)
+    {
+      throw Error("contact of a tool: friction = " + std::to_string(options.friction) +
+                  ", must be 0: tools slide on tissue without friction");
+    }
+  }
 
   void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
   bool active() const { return !selection_.empty(); }

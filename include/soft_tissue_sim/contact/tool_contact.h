@@ -18,8 +18,7 @@ struct ToolContactOptions
   bool closest_feature = true;  ///< depth from the nearest boundary feature; false: interpolated
   bool lazy_field = true;       ///< march only as far as contacts read, and only when they do
   double stiffness_pa_per_m = 0.0;  ///< kappa
-  double friction = 0.0;            ///< Coulomb coefficient
-  double friction_speed = 1e-3;     ///< m/s below which friction is smoothed
+  double friction = 0.0;            ///< Coulomb coefficient; only 0 so far
 };
 
 /** Wall time of a contact's parts since the last call of takeTimes(), s. */
@@ -40,6 +39,7 @@ struct ContactTimes
 class ToolContact : public EnergyTerm
 {
  public:
+  /** @throws Error unless friction is 0 */
   ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
               std::unique_ptr<DistanceField> field, const ToolContactOptions& options);
   ~ToolContact() override;
@@ -49,7 +49,7 @@ class ToolContact : public EnergyTerm
    * @param x            positions at the start of the step
    * @param X_WT_before  tool pose at the start of the step
    * @param X_WT         tool pose at its end: the pose contact is evaluated at
-   * @param step_s       length of the step, for friction
+   * @param step_s       length of the step; nothing depends on it without friction
    * @param refresh      march the nodal depths anew on x; false keeps those there are and marches
    * on x only where a contact reads a node that has none yet
    */

@@ -69,8 +69,14 @@ double worstOver(const std::shared_ptr<const RigidShape>& shape, const ToolConta
 
 TEST(ContactGradient, IsTheDerivativeOfTheValue)
 {
+  SurfaceMesh bent = lPrism();
+  for (Vec3& node : bent.nodes)
+  {
+    node = 0.004 * (node - Vec3(0.7, 0.7, 0.5));
+  }
   const std::vector<std::shared_ptr<const RigidShape>> shapes = {
-      makeSphere(0.004), makeCapsule(0.003, 0.01), makeBox({0.006, 0.005, 0.008})};
+      makeMeshShape(bent.nodes, bent.triangles, "bent tool"), makeSphere(0.004),
+      makeCapsule(0.003, 0.01), makeBox({0.006, 0.005, 0.008})};
   for (const ToolContactOptions& options : contactModels(1e6))
   {
     for (const auto& shape : shapes)
