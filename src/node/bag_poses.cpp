@@ -214,6 +214,7 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
   SampleReader reader(bag, world_frame);
   BagPoses poses;
   std::vector<std::vector<Sample>> samples(tools.size());
+  std::vector<std::string> without_poses;
   ros::Time first = ros::TIME_MAX;
   ros::Time last = ros::TIME_MIN;
   for (std::size_t tool = 0; tool < tools.size(); ++tool)
@@ -227,8 +228,7 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
                      [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; });
     if (samples[tool].empty())
     {
-      poses.warnings.push_back("no poses for tool '" + tools[tool].name +
-                               "': it stays where it is");
+      without_poses.push_back("no poses for tool '" + tools[tool].name + "': it stays where it is");
       continue;
     }
     first = std::min(first, samples[tool].front().stamp);
@@ -244,6 +244,7 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
     throw Error("no usable poses; looked for " + wantedNames(tools) + "; " + listTopics(types) +
                 reasons);
   }
+  poses.warnings.insert(poses.warnings.end(), without_poses.begin(), without_poses.end());
   poses.start = first;
   poses.length_s = (last - first).toSec();
   poses.tools.resize(tools.size());
