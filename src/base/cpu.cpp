@@ -38,7 +38,8 @@ InstructionSet fromEnvironment()
     {
       if (set > best())
       {
-        throw Error(std::string("SOFT_TISSUE_ISA = ") + text + ": this machine only has " + name(best()));
+        throw Error(std::string("SOFT_TISSUE_ISA = ") + text + ": this machine only has " +
+                    name(best()));
       }
       return set;
     }
@@ -62,7 +63,8 @@ void forceInstructionSet(InstructionSet set)
 {
   if (set > best())
   {
-    throw Error(std::string("instruction set ") + name(set) + ": this machine only has " + name(best()));
+    throw Error(std::string("instruction set ") + name(set) + ": this machine only has " +
+                name(best()));
   }
   current() = set;
 }

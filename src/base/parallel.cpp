@@ -50,7 +50,8 @@ void runChunks(Index chunks, ChunkFunction function, const void* context)
   }
   g_arena->execute([&] {
     tbb::parallel_for(
-        Index{0}, chunks, [&](Index chunk) { function(context, chunk); }, tbb::simple_partitioner());
+        Index{0}, chunks, [&](Index chunk) { function(context, chunk); },
+        tbb::simple_partitioner());
   });
 }
 }  // namespace detail

@@ -1,11 +1,11 @@
 /**
  * The constitutive laws, several tets at once. Included by kernel files only (see pack.h).
  *
- * A law is isotropic: energy density and first Piola-Kirchhoff stress of F, and in principal stretches s the
- * second derivatives, from which one routine builds the projected stiffness for all laws:
- *   hessian[i][j] = d2 psi / ds_i ds_j,
- *   difference[k] = (g_i - g_j) / (s_i - s_j),  sum[k] = (g_i + g_j) / (s_i + s_j),  g = d psi / ds,
- * the pairs (i, j) being (1,2), (0,2), (0,1) for k = 0, 1, 2, in forms that stay finite where stretches meet.
+ * A law is isotropic: energy density and first Piola-Kirchhoff stress of F, and in principal
+ * stretches s the second derivatives, from which one routine builds the projected stiffness for all
+ * laws: hessian[i][j] = d2 psi / ds_i ds_j, difference[k] = (g_i - g_j) / (s_i - s_j),  sum[k] =
+ * (g_i + g_j) / (s_i + s_j),  g = d psi / ds, the pairs (i, j) being (1,2), (0,2), (0,1) for k = 0,
+ * 1, 2, in forms that stay finite where stretches meet.
  */
 #pragma once
 
@@ -22,10 +22,12 @@ struct PrincipalStiffness
   Pack sum[3];
 };
 
-/** Stable neo-Hookean: mu/2 (I_C - 3) + lambda/2 (J - alpha)^2 - mu/2 log(I_C + 1), zero at rest. */
+/** Stable neo-Hookean: mu/2 (I_C - 3) + lambda/2 (J - alpha)^2 - mu/2 log(I_C + 1), zero at rest.
+ */
 struct NeoHookean
 {
-  /** mu, lambda, alpha of the law, and its energy density at F = I, so that small strains match E and nu. */
+  /** mu, lambda, alpha of the law, and its energy density at F = I, so that small strains match E
+   * and nu. */
   static void constants(double young_modulus, double poisson_ratio, double* c)
   {
     const double mu = young_modulus / (2.0 * (1.0 + poisson_ratio));
@@ -78,7 +80,8 @@ struct NeoHookean
   }
 };
 
-/** Corotated: mu |S - I|^2 + lambda/2 tr(S - I)^2 with the polar stretch S (a reflection makes one stretch negative). */
+/** Corotated: mu |S - I|^2 + lambda/2 tr(S - I)^2 with the polar stretch S (a reflection makes one
+ * stretch negative). */
 struct Corotated
 {
   static void constants(double young_modulus, double poisson_ratio, double* c)
@@ -126,7 +129,8 @@ struct Corotated
       {
         k.hessian.m[i][j] = i == j ? 2.0 * c[0] + c[1] : c[1] + zero;
       }
-      // The law's rotation jumps where two stretches cancel: its stiffness there is cut off, not infinite.
+      // The law's rotation jumps where two stretches cancel: its stiffness there is cut off, not
+      // infinite.
       const Pack pair = s[(i + 1) % 3] + s[(i + 2) % 3];
       k.difference[i] = 2.0 * c[0];
       k.sum[i] = 2.0 * c[0] + spin / max(pair, zero + 1e-6);

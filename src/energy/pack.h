@@ -1,6 +1,7 @@
 /**
- * A few doubles worked on at once, as GCC vectors. Included by kernel files only, inside their own namespace
- * (SOFT_TISSUE_KERNELS, SOFT_TISSUE_LANES): every function here exists once per instruction set.
+ * A few doubles worked on at once, as GCC vectors. Included by kernel files only, inside their own
+ * namespace (SOFT_TISSUE_KERNELS, SOFT_TISSUE_LANES): every function here exists once per
+ * instruction set.
  */
 #pragma once
 
@@ -75,7 +76,8 @@ inline bool any(Mask m)
 /** Natural logarithm of positive finite numbers, to about one unit in the last place. */
 inline Pack log(Pack a)
 {
-  // a = m 2^e with m in [1/sqrt(2), sqrt(2)); log m = 2 atanh(s), s = (m - 1) / (m + 1), by its series.
+  // a = m 2^e with m in [1/sqrt(2), sqrt(2)); log m = 2 atanh(s), s = (m - 1) / (m + 1), by its
+  // series.
   Mask bits = reinterpret_cast<Mask>(a);
   Mask exponent = ((bits >> 52) & 0x7ff) - 1023;
   bits = (bits & 0x000fffffffffffffLL) | 0x3ff0000000000000LL;

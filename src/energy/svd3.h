@@ -1,5 +1,6 @@
 /**
- * Signed singular values of 3 x 3 matrices, several at once. Included by kernel files only (see pack.h).
+ * Signed singular values of 3 x 3 matrices, several at once. Included by kernel files only (see
+ * pack.h).
  */
 #pragma once
 
@@ -53,7 +54,8 @@ inline Pack frobeniusSquared(const PackMat& a)
   return sum;
 }
 
-/** F = U diag(sigma) V^T with rotations U and V; sigma descending in size, only the last may be negative. */
+/** F = U diag(sigma) V^T with rotations U and V; sigma descending in size, only the last may be
+ * negative. */
 struct Svd
 {
   PackMat u;
@@ -88,7 +90,8 @@ inline void swapColumns(PackMat& a, int p, int q, Mask swap)
   }
 }
 
-/** One-sided Jacobi rotations until all columns of F V are at right angles: relatively exact for small sigma too. */
+/** One-sided Jacobi rotations until all columns of F V are at right angles: relatively exact for
+ * small sigma too. */
 inline Svd signedSvd(const PackMat& f)
 {
   constexpr int kPairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
@@ -137,7 +140,8 @@ inline Svd signedSvd(const PackMat& f)
     norm[p] = swap ? nq : np;
     norm[q] = swap ? np : nq;
   }
-  // U's columns: the first along b0, the second along what of b1 is at right angles to it, the third fixed by both.
+  // U's columns: the first along b0, the second along what of b1 is at right angles to it, the
+  // third fixed by both.
   const Pack s0 = sqrt(norm[0]);
   const Mask has0 = s0 > 1e-150;
   const Pack inv0 = 1.0 / (has0 ? s0 : zero + 1.0);
@@ -179,7 +183,8 @@ inline Svd signedSvd(const PackMat& f)
   return svd;
 }
 
-/** Symmetric 3 x 3 matrices with their negative eigenvalues set to zero, in place; others keep their bits. */
+/** Symmetric 3 x 3 matrices with their negative eigenvalues set to zero, in place; others keep
+ * their bits. */
 inline void projectSymmetric(PackMat& a)
 {
   const Pack zero = {};

@@ -17,13 +17,14 @@ constexpr Index kBlockGrain = 512;
 }  // namespace
 
 TetElasticity::TetElasticity(const TetMesh& rest, MaterialModel model,
-                             const std::vector<TetStiffnessParameters>& parameters, Index first_node)
-  : first_node_(first_node)
-  , node_count_(static_cast<Index>(rest.nodes.size()))
-  , tet_count_(static_cast<Index>(rest.tets.size()))
-  , group_count_((tet_count_ + kTetLanes - 1) / kTetLanes)
-  , kernels_(&tetKernels(model, instructionSet()))
-  , tets_(rest.tets)
+                             const std::vector<TetStiffnessParameters>& parameters,
+                             Index first_node)
+    : first_node_(first_node),
+      node_count_(static_cast<Index>(rest.nodes.size())),
+      tet_count_(static_cast<Index>(rest.tets.size())),
+      group_count_((tet_count_ + kTetLanes - 1) / kTetLanes),
+      kernels_(&tetKernels(model, instructionSet())),
+      tets_(rest.tets)
 {
   const std::size_t lanes = static_cast<std::size_t>(group_count_) * kTetLanes;
   // Unused lanes of the last group read the body's first node and weigh nothing.
@@ -81,7 +82,8 @@ void TetElasticity::prepareGathers(const TetMesh& rest)
     {
       const Index t = corners_.items[k];
       const Tet& tet = rest.tets[t];
-      corners_.items[k] = 4 * t + static_cast<Index>(std::find(tet.begin(), tet.end(), node) - tet.begin());
+      corners_.items[k] =
+          4 * t + static_cast<Index>(std::find(tet.begin(), tet.end(), node) - tet.begin());
     }
   }
 }
@@ -110,8 +112,9 @@ void TetElasticity::prepareBlocks(const BlockMatrix& hessian)
       }
     }
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Contribution& a, const Contribution& b) { return a.position < b.position; });
+  std::stable_sort(all.begin(), all.end(), [](const Contribution& a, const Contribution& b) {
+    return a.position < b.position;
+  });
   block_position_.clear();
   block_sources_begin_.clear();
   block_sources_.clear();

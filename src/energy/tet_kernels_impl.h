@@ -1,6 +1,7 @@
 /**
- * Element loops over groups of tets, compiled once per instruction set by tet_kernels_*.cpp, which define
- * SOFT_TISSUE_KERNELS (a namespace of their own) and SOFT_TISSUE_LANES (doubles worked on at once, a divisor of 8).
+ * Element loops over groups of tets, compiled once per instruction set by tet_kernels_*.cpp, which
+ * define SOFT_TISSUE_KERNELS (a namespace of their own) and SOFT_TISSUE_LANES (doubles worked on at
+ * once, a divisor of 8).
  */
 #pragma once
 
@@ -63,7 +64,8 @@ inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const dou
 
 /** Calls body(group, lane, lanes) for all lanes of groups begin ... end - 1. */
 template <typename Body>
-inline void forLanes(const TetGroups& groups, Index begin, Index end, const double* x, const Body& body)
+inline void forLanes(const TetGroups& groups, Index begin, Index end, const double* x,
+                     const Body& body)
 {
   for (Index group = begin; group < end; ++group)
   {
@@ -98,7 +100,8 @@ void tetEnergy(const TetGroups& groups, Index begin, Index end, const double* x,
 }
 
 template <typename Material>
-void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x, double* gradients)
+void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x,
+                 double* gradients)
 {
   forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
     const PackMat p = Material::stress(t.f, t.constants);
@@ -137,7 +140,8 @@ inline PackMat rotateBlock(const PackMat& u, const PackMat& k)
   return r;
 }
 
-/** The three 2 x 2 blocks of the second derivative that mix F_ij and F_ji: [[same, cross], [cross, same]]. */
+/** The three 2 x 2 blocks of the second derivative that mix F_ij and F_ji: [[same, cross], [cross,
+ * same]]. */
 struct MixedStiffness
 {
   Pack same[3];
@@ -145,13 +149,15 @@ struct MixedStiffness
 };
 
 /** Block (a, b) in the frame of the singular vectors, from the nodes' shape gradients there. */
-inline PackMat principalBlock(const PackMat& h, const MixedStiffness& mixed, const Pack* da, const Pack* db)
+inline PackMat principalBlock(const PackMat& h, const MixedStiffness& mixed, const Pack* da,
+                              const Pack* db)
 {
   PackMat k;
   for (int i = 0; i < 3; ++i)
   {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
-    k.m[i][i] = h.m[i][i] * da[i] * db[i] + mixed.same[l] * da[j] * db[j] + mixed.same[j] * da[l] * db[l];
+    k.m[i][i] =
+        h.m[i][i] * da[i] * db[i] + mixed.same[l] * da[j] * db[j] + mixed.same[j] * da[l] * db[l];
     k.m[i][j] = h.m[i][j] * da[i] * db[j] + mixed.cross[l] * da[j] * db[i];
     k.m[i][l] = h.m[i][l] * da[i] * db[l] + mixed.cross[j] * da[l] * db[i];
   }
@@ -159,7 +165,8 @@ inline PackMat principalBlock(const PackMat& h, const MixedStiffness& mixed, con
 }
 
 template <typename Material>
-void tetStiffness(const TetGroups& groups, Index begin, Index end, const double* x, double* stiffness)
+void tetStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
+                  double* stiffness)
 {
   forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
     const Pack zero = {};
@@ -270,8 +277,9 @@ void tetState(const TetGroups& groups, Index begin, Index end, const double* x, 
 template <typename Material>
 const TetKernels& kernelsOf()
 {
-  static const TetKernels kernels = {Material::constants, tetEnergy<Material>, tetGradient<Material>,
-                                     tetStiffness<Material>, tetState<Material>};
+  static const TetKernels kernels = {Material::constants, tetEnergy<Material>,
+                                     tetGradient<Material>, tetStiffness<Material>,
+                                     tetState<Material>};
   return kernels;
 }
 

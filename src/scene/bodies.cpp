@@ -24,7 +24,8 @@ std::vector<Index> nodesIn(const std::vector<BoxConfig>& boxes, const Points& no
     const std::size_t before = found.size();
     for (std::size_t i = 0; i < nodes.size(); ++i)
     {
-      if ((nodes[i].array() >= box.min.array()).all() && (nodes[i].array() <= box.max.array()).all())
+      if ((nodes[i].array() >= box.min.array()).all() &&
+          (nodes[i].array() <= box.max.array()).all())
       {
         found.push_back(static_cast<Index>(i));
       }
@@ -132,7 +133,8 @@ RigidBodyShape makeToolShape(const ToolConfig& config, const std::string& where)
   RigidBodyShape body;
   for (std::size_t k = 0; k < config.shapes.size(); ++k)
   {
-    const std::string name = config.shapes.size() > 1 ? indexed(where, "shapes", k) : where + ".shape";
+    const std::string name =
+        config.shapes.size() > 1 ? indexed(where, "shapes", k) : where + ".shape";
     body.add(makeShape(config.shapes[k].geometry, name), config.shapes[k].origin.toPose());
   }
   if (body.empty())

@@ -42,7 +42,8 @@ Pose PoseTrack::at(double time_s) const
     return poses_.back();
   }
   const std::size_t k = after - times_.begin();
-  return interpolate(poses_[k - 1], poses_[k], (time_s - times_[k - 1]) / (times_[k] - times_[k - 1]));
+  return interpolate(poses_[k - 1], poses_[k],
+                     (time_s - times_[k - 1]) / (times_[k] - times_[k - 1]));
 }
 
 }  // namespace soft_tissue

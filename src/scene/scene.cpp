@@ -14,7 +14,8 @@ void Scene::Impl::resetWorld()
   for (std::size_t k = 0; k < tools_.size(); ++k)
   {
     Tool& tool = tools_[k];
-    tool.X_WT = tool.track ? tool.track->at(report_.time_s) : config_.tools[k].initial_pose.toPose();
+    tool.X_WT =
+        tool.track ? tool.track->at(report_.time_s) : config_.tools[k].initial_pose.toPose();
     tool.X_WT_goal = tool.X_WT;
     tool.state = ToolState();
     tool.state.X_WT = tool.X_WT;

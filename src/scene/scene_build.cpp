@@ -8,7 +8,8 @@ namespace soft_tissue
 {
 namespace
 {
-/** Contact stiffness when the scene leaves it to us, in Young's moduli per inner radius of the tool. */
+/** Contact stiffness when the scene leaves it to us, in Young's moduli per inner radius of the
+ * tool. */
 constexpr double kAutoStiffness = 20.0;
 /** A tool may start touching, but not with more of its inner radius than this inside tissue. */
 constexpr double kDeepStart = 0.5;
@@ -130,13 +131,15 @@ void Scene::Impl::addTool(std::size_t index)
   tool.X_WT_goal = tool.X_WT;
   tool.state.X_WT = tool.X_WT;
   SurfaceMesh surface = tool.shape.surface(0.5 * tool.shape.innerRadius());
-  tool_info_.push_back({tool_config.name, {std::move(surface.nodes), std::move(surface.triangles)}});
+  tool_info_.push_back(
+      {tool_config.name, {std::move(surface.nodes), std::move(surface.triangles)}});
   tools_.push_back(std::move(tool));
 }
 
 FieldTopology Scene::Impl::fieldTopology(std::size_t tissue) const
 {
-  return {&tissue_info_[tissue].rest.tets, &tissue_info_[tissue].surface, &tissues_[tissue].neighbours};
+  return {&tissue_info_[tissue].rest.tets, &tissue_info_[tissue].surface,
+          &tissues_[tissue].neighbours};
 }
 
 void Scene::Impl::addContact(std::size_t index)
@@ -166,7 +169,8 @@ void Scene::Impl::addContact(std::size_t index)
   body.first_node = tissue.first_node;
   body.node_count = tissue.node_count;
   contact.term = std::make_unique<ToolContact>(
-      body, shape, makeDistanceField(tissue_config.field.method, fieldTopology(contact.tissue)), options);
+      body, shape, makeDistanceField(tissue_config.field.method, fieldTopology(contact.tissue)),
+      options);
   contact.refresh = tissue_config.field.refresh != FieldRefresh::carried;
   contacts_.push_back(std::move(contact));
 }

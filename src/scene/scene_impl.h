@@ -13,7 +13,8 @@
 
 namespace soft_tissue
 {
-/** The scene itself. Building is in scene_build.cpp, moving in scene_step.cpp, reading out in scene.cpp. */
+/** The scene itself. Building is in scene_build.cpp, moving in scene_step.cpp, reading out in
+ * scene.cpp. */
 class Scene::Impl
 {
  public:
@@ -38,8 +39,8 @@ class Scene::Impl
   {
     RigidBodyShape shape;
     std::optional<PoseTrack> track;
-    Pose X_WT = Pose::Identity();      ///< now
-    Pose X_WT_goal = Pose::Identity(); ///< at the end of the step
+    Pose X_WT = Pose::Identity();       ///< now
+    Pose X_WT_goal = Pose::Identity();  ///< at the end of the step
     ToolState state;
   };
   std::vector<Tool, Eigen::aligned_allocator<Tool>> tools_;

@@ -166,7 +166,8 @@ void Scene::Impl::collectContacts()
     {
       ContactPoint point;
       point.position_W = sample.position;
-      // d grows along the gradient for the intruder: the tool, or the tissue that has the tool around it.
+      // d grows along the gradient for the intruder: the tool, or the tissue that has the tool
+      // around it.
       const double sign = sample.tool_sign > 0 ? -1.0 : 1.0;
       point.normal_W = sign * sample.gradient.normalized();
       point.force_W = sign * sample.stiffness_area * sample.depth * sample.gradient;
@@ -174,7 +175,8 @@ void Scene::Impl::collectContacts()
       point.area = sample.area;
       point.tissue = static_cast<Index>(contact.tissue);
       tool.state.wrench_W.force += point.force_W;
-      tool.state.wrench_W.torque += (point.position_W - tool.X_WT.translation()).cross(point.force_W);
+      tool.state.wrench_W.torque +=
+          (point.position_W - tool.X_WT.translation()).cross(point.force_W);
       report_.max_penetration_m = std::max(report_.max_penetration_m, sample.depth);
       tool.state.contacts.push_back(point);
       ++report_.contacts;

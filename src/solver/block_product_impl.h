@@ -22,7 +22,8 @@ void multiplyBlocks(const BlockRows& a, Index begin, Index end, const double* x,
 {
   for (Index row = begin; row < end; ++row)
   {
-    // One running sum per column of the blocks; the fourth lane carries what the wide loads bring along.
+    // One running sum per column of the blocks; the fourth lane carries what the wide loads bring
+    // along.
     Four sum0 = {}, sum1 = {}, sum2 = {};
     const double* block = a.values + 9 * static_cast<long>(a.offsets[row]);
     for (Index k = a.offsets[row]; k < a.offsets[row + 1]; ++k, block += 9)

@@ -34,7 +34,7 @@ void setZero(Points& points, std::size_t size)
 
 NewtonSolver::NewtonSolver(const Adjacency& neighbours, const std::vector<Index>& fixed,
                            std::unique_ptr<LinearSolver> linear)
-  : fixed_(fixed), hessian_(neighbours), linear_(std::move(linear))
+    : fixed_(fixed), hessian_(neighbours), linear_(std::move(linear))
 {
   for (const Index row : fixed_)
   {
@@ -56,8 +56,8 @@ void NewtonSolver::restoreFixed(const Points& from, Points& to) const
   }
 }
 
-NewtonSolver::Potential NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms, const Points& x,
-                                               std::vector<double>& seconds)
+NewtonSolver::Potential NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms,
+                                               const Points& x, std::vector<double>& seconds)
 {
   Potential sum;
   for (std::size_t k = 0; k < terms.size(); ++k)
@@ -119,8 +119,9 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
   }
 }
 
-NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms, const NewtonOptions& options,
-                                    Points& x, std::vector<double>& seconds)
+NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
+                                    const NewtonOptions& options, Points& x,
+                                    std::vector<double>& seconds)
 {
   NewtonReport report;
   const auto overflowed = [&report] {
@@ -154,7 +155,8 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms, const
       descent_[i] = -gradient_[i];
     }
     {
-      // As exact as this iteration can use: an error below the tolerance asked for is lost on the next one.
+      // As exact as this iteration can use: an error below the tolerance asked for is lost on the
+      // next one.
       const ScopedTimer timer(report.linear_s);
       const double accuracy = std::clamp(0.3 * options.tolerance / report.residual, 1e-10, 0.1);
       report.linear_iterations += linear_->solve(hessian_, descent_, accuracy, direction_);

@@ -9,11 +9,13 @@ namespace soft_tissue
 {
 namespace test
 {
-/** Sixth-order central difference of f at 0: slow, obvious, exact to about 1e-11 of smooth functions. */
+/** Sixth-order central difference of f at 0: slow, obvious, exact to about 1e-11 of smooth
+ * functions. */
 template <typename Function>
 auto derivative(const Function& f, double h)
 {
-  return ((f(3 * h) - f(-3 * h)) - 9.0 * (f(2 * h) - f(-2 * h)) + 45.0 * (f(h) - f(-h))) / (60.0 * h);
+  return ((f(3 * h) - f(-3 * h)) - 9.0 * (f(2 * h) - f(-2 * h)) + 45.0 * (f(h) - f(-h))) /
+         (60.0 * h);
 }
 
 /** Gradient of a term by differences of its value, 3N. */

@@ -5,9 +5,9 @@ namespace soft_tissue
 /** Instruction sets that hot kernels are built for. All give the same bits. */
 enum class InstructionSet
 {
-  baseline,    ///< plain x86-64 (or whatever the compiler's default is)
-  x86_64_v3,   ///< AVX2
-  x86_64_v4,   ///< AVX-512
+  baseline,   ///< plain x86-64 (or whatever the compiler's default is)
+  x86_64_v3,  ///< AVX2
+  x86_64_v4,  ///< AVX-512
 };
 
 /** The best set this machine has, or the one forced. */

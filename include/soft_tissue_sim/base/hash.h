@@ -5,7 +5,8 @@
 
 namespace soft_tissue
 {
-/** 64-bit hash of a stream of bytes: equal states give equal values, on any machine of one endianness. */
+/** 64-bit hash of a stream of bytes: equal states give equal values, on any machine of one
+ * endianness. */
 class StateHash
 {
  public:

@@ -13,12 +13,16 @@ namespace detail
 using ChunkFunction = void (*)(const void* context, Index chunk);
 void runChunks(Index chunks, ChunkFunction function, const void* context);
 constexpr Index kMaxSumChunks = 256;
-inline Index chunkCount(Index count, Index grain) { return (count + grain - 1) / grain; }
+inline Index chunkCount(Index count, Index grain)
+{
+  return (count + grain - 1) / grain;
+}
 }  // namespace detail
 
 /**
- * Calls body(begin, end) for consecutive pieces of [0, count), `grain` items each, possibly at once on
- * several threads. The pieces depend on count and grain only. Allocates nothing in a steady state.
+ * Calls body(begin, end) for consecutive pieces of [0, count), `grain` items each, possibly at once
+ * on several threads. The pieces depend on count and grain only. Allocates nothing in a steady
+ * state.
  */
 template <typename Body>
 void parallelFor(Index count, Index grain, const Body& body)
@@ -39,8 +43,8 @@ void parallelFor(Index count, Index grain, const Body& body)
 }
 
 /**
- * Sum of body(begin, end) over such pieces, added in their order: the same bits for any thread count.
- * At most 256 pieces: the grain is enlarged for longer ranges.
+ * Sum of body(begin, end) over such pieces, added in their order: the same bits for any thread
+ * count. At most 256 pieces: the grain is enlarged for longer ranges.
  */
 template <typename Body>
 double parallelSum(Index count, Index grain, const Body& body)

@@ -7,8 +7,8 @@
 namespace soft_tissue
 {
 /**
- * Square symmetric matrix of 3 x 3 blocks with a fixed pattern: one block row per node, a block for each
- * pair of nodes that share an element (both triangles stored) and for each node itself.
+ * Square symmetric matrix of 3 x 3 blocks with a fixed pattern: one block row per node, a block for
+ * each pair of nodes that share an element (both triangles stored) and for each node itself.
  */
 class BlockMatrix
 {

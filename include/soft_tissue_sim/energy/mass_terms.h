@@ -7,7 +7,8 @@
 
 namespace soft_tissue
 {
-/** Adds a quarter of each tet's mass to its nodes: masses[first_node + i] += ..., kg. densities: one per tet, kg/m^3. */
+/** Adds a quarter of each tet's mass to its nodes: masses[first_node + i] += ..., kg. densities:
+ * one per tet, kg/m^3. */
 void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, Index first_node,
                      std::vector<double>& masses);
 
@@ -39,9 +40,8 @@ class Gravity : public EnergyTerm
  public:
   /** @param masses N, kg; must outlive the term  @param acceleration m/s^2, world */
   Gravity(const std::vector<double>& masses, const Vec3& acceleration)
-    : masses_(masses), acceleration_(acceleration)
-  {
-  }
+      : masses_(masses), acceleration_(acceleration)
+  {}
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;

@@ -2,7 +2,8 @@
 
 namespace soft_tissue
 {
-/** Constitutive laws. Each is one struct in src/energy/materials.h and one line in tet_kernels_impl.h. */
+/** Constitutive laws. Each is one struct in src/energy/materials.h and one line in
+ * tet_kernels_impl.h. */
 enum class MaterialModel
 {
   neo_hookean,  ///< stable neo-Hookean. Source: [Smith2018] eq. 14

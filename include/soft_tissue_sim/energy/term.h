@@ -8,9 +8,10 @@ namespace soft_tissue
 /**
  * One term of the potential, a function of the positions of all nodes of all bodies.
  *
- * x and gradient are N x 3, world frame, metres and newtons. Terms add to what is there. A virtual call
- * is per term and evaluation, never per element. What a term lags (frames, areas, nodal depths) it takes
- * before the minimisation starts; from there value, gradient and Hessian belong together.
+ * x and gradient are N x 3, world frame, metres and newtons. Terms add to what is there. A virtual
+ * call is per term and evaluation, never per element. What a term lags (frames, areas, nodal
+ * depths) it takes before the minimisation starts; from there value, gradient and Hessian belong
+ * together.
  */
 class EnergyTerm
 {

@@ -70,9 +70,9 @@ class TetElasticity : public EnergyTerm
   Adjacency corners_;  ///< per node: places in gradients_, over 3
 
   // Where the matrix's blocks on and above the diagonal come from; made for the first matrix seen.
-  std::vector<Index> block_position_;          ///< matrix block (row <= column)
-  std::vector<Index> block_mirror_;            ///< its transpose's
-  std::vector<Index> block_sources_begin_;     ///< ranges in block_sources_
+  std::vector<Index> block_position_;       ///< matrix block (row <= column)
+  std::vector<Index> block_mirror_;         ///< its transpose's
+  std::vector<Index> block_sources_begin_;  ///< ranges in block_sources_
   std::vector<BlockSource> block_sources_;
   std::size_t matrix_blocks_ = 0;
 };

@@ -6,13 +6,15 @@
 
 namespace soft_tissue
 {
-/** Tets are stored in groups of eight, lane by lane, whatever the instruction set: the layout is part of the bits. */
+/** Tets are stored in groups of eight, lane by lane, whatever the instruction set: the layout is
+ * part of the bits. */
 constexpr Index kTetLanes = 8;
 
 /** Constants a law needs per tet, made from E and nu once. */
 constexpr int kMaterialConstants = 4;
 
-/** Blocks of a tet's stiffness in storage: 4 diagonal ones of 6 (lower triangle by columns), 6 others of 9. */
+/** Blocks of a tet's stiffness in storage: 4 diagonal ones of 6 (lower triangle by columns), 6
+ * others of 9. */
 constexpr Index kTetStiffnessSize = 4 * 6 + 6 * 9;
 
 /** Place of diagonal block a in a tet's stiffness: (0,0) (1,0) (2,0) (1,1) (2,1) (2,2). */
@@ -48,7 +50,8 @@ struct TetKernels
   /** stiffness[tet][kTetStiffnessSize], N/m, projected positive semi-definite. */
   void (*stiffness)(const TetGroups&, Index begin, Index end, const double* x, double* stiffness);
   /** det_f[group][8] and, unless null, von_mises[group][8] in Pa. */
-  void (*state)(const TetGroups&, Index begin, Index end, const double* x, double* det_f, double* von_mises);
+  void (*state)(const TetGroups&, Index begin, Index end, const double* x, double* det_f,
+                double* von_mises);
 };
 
 /** The loops for a material on this machine. */

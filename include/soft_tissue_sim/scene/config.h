@@ -177,8 +177,8 @@ enum class Stepper
 struct SolverConfig
 {
   Stepper stepper = Stepper::implicit_euler;
-  double tolerance = 1.0e-3;   ///< residual over the sum of the norms of the acting forces
-  int max_iterations = 20;     ///< Newton iterations a step may take
+  double tolerance = 1.0e-3;  ///< residual over the sum of the norms of the acting forces
+  int max_iterations = 20;    ///< Newton iterations a step may take
   LinearSolverKind linear = LinearSolverKind::automatic;
 };
 

@@ -26,14 +26,14 @@ struct StageTimes
 /** How one step went. */
 struct StepReport
 {
-  std::uint64_t step = 0;      ///< number of the step, from 1
-  double time_s = 0.0;         ///< simulated time at its end
+  std::uint64_t step = 0;  ///< number of the step, from 1
+  double time_s = 0.0;     ///< simulated time at its end
   int newton_iterations = 0;
   int linear_iterations = 0;
-  double residual = 0.0;       ///< relative, see SolverConfig::tolerance
+  double residual = 0.0;  ///< relative, see SolverConfig::tolerance
   bool converged = false;
-  int halvings = 0;            ///< how often the step was halved before it went through
-  bool held = false;           ///< it did not go through: the last good state was kept
+  int halvings = 0;   ///< how often the step was halved before it went through
+  bool held = false;  ///< it did not go through: the last good state was kept
   double min_det_f = 1.0;
   double max_penetration_m = 0.0;
   int contacts = 0;
@@ -43,12 +43,12 @@ struct StepReport
 /** One contact sample between a tool and a tissue, world frame. */
 struct ContactPoint
 {
-  Vec3 position_W;      ///< m
-  Vec3 normal_W;        ///< unit, out of the tissue: the direction in which the tool is pushed
-  double depth = 0.0;   ///< m
-  double area = 0.0;    ///< m^2 of the surface it stands for
-  Vec3 force_W;         ///< N, of the tissue on the tool
-  Index tissue = -1;    ///< index of the tissue
+  Vec3 position_W;     ///< m
+  Vec3 normal_W;       ///< unit, out of the tissue: the direction in which the tool is pushed
+  double depth = 0.0;  ///< m
+  double area = 0.0;   ///< m^2 of the surface it stands for
+  Vec3 force_W;        ///< N, of the tissue on the tool
+  Index tissue = -1;   ///< index of the tissue
 };
 
 /** Force and moment of all tissues on a tool, at the tool frame's origin, in world axes. */
@@ -69,9 +69,9 @@ struct TissueInfo
 
 struct TissueState
 {
-  Points positions;               ///< N, world, m
-  Points velocities;              ///< N, world, m/s
-  std::vector<float> von_mises;   ///< M, Pa; empty unless the scene asks for stress
+  Points positions;              ///< N, world, m
+  Points velocities;             ///< N, world, m/s
+  std::vector<float> von_mises;  ///< M, Pa; empty unless the scene asks for stress
 };
 
 struct ToolState
@@ -103,7 +103,8 @@ class Scene
  public:
   /**
    * Builds the bodies a configuration names.
-   * @throws Error for a mesh that can't be read, a fixed box that fixes nothing, a tool deep inside tissue, ...
+   * @throws Error for a mesh that can't be read, a fixed box that fixes nothing, a tool deep inside
+   * tissue, ...
    */
   explicit Scene(const SceneConfig& config);
   ~Scene();
@@ -120,7 +121,8 @@ class Scene
   /** Where the tool shall be at the end of the next step. Key-framed tools ignore it. */
   void setToolTarget(std::size_t tool, const Pose& X_WT);
 
-  /** Moves simulated time on by one time step. Never throws for numerical reasons: see StepReport::held. */
+  /** Moves simulated time on by one time step. Never throws for numerical reasons: see
+   * StepReport::held. */
   const StepReport& step();
 
   /** Rest shape, zero velocity, tools at their initial poses; time goes on. */
@@ -133,7 +135,8 @@ class Scene
   void fillSnapshot(Snapshot& snapshot) const;
 
   /**
-   * Depth of every node inside its deformed tissue, marched here and now for those who want to see it.
+   * Depth of every node inside its deformed tissue, marched here and now for those who want to see
+   * it.
    * @param depth  out, N, m: 0 on the boundary, > 0 inside
    */
   void fillDepth(std::size_t tissue, std::vector<double>& depth);

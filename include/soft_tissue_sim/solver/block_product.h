@@ -14,7 +14,8 @@ struct BlockRows
 };
 
 /** y = A x for rows begin ... end - 1; x and y are flat, 3 per row. */
-using BlockProduct = void (*)(const BlockRows& a, Index begin, Index end, const double* x, double* y);
+using BlockProduct = void (*)(const BlockRows& a, Index begin, Index end, const double* x,
+                              double* y);
 
 /** The product for this machine; all give the same bits. */
 BlockProduct blockProduct(InstructionSet set);

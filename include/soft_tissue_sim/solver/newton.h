@@ -10,7 +10,8 @@ namespace soft_tissue
 {
 struct NewtonOptions
 {
-  /** Stop when |sum of forces| <= tolerance * sum of the norms of the terms' forces, free nodes only. */
+  /** Stop when |sum of forces| <= tolerance * sum of the norms of the terms' forces, free nodes
+   * only. */
   double tolerance = 1e-3;
   int max_iterations = 20;
 };
@@ -19,10 +20,10 @@ struct NewtonReport
 {
   int iterations = 0;
   int linear_iterations = 0;
-  double residual = 0.0;   ///< relative, as in NewtonOptions::tolerance
+  double residual = 0.0;  ///< relative, as in NewtonOptions::tolerance
   bool converged = false;
-  bool finite = true;      ///< false: forces or energy overflowed; x is then the last finite iterate
-  double linear_s = 0.0;   ///< wall time in linear solves
+  bool finite = true;     ///< false: forces or energy overflowed; x is then the last finite iterate
+  double linear_s = 0.0;  ///< wall time in linear solves
 };
 
 /** Minimises a sum of energy terms over the free nodes by Newton's method with line search. */
@@ -42,8 +43,8 @@ class NewtonSolver
    * @param x          in: start, out: minimiser; never non-finite
    * @param seconds    per term: wall time spent in it is added
    */
-  NewtonReport minimise(const std::vector<EnergyTerm*>& terms, const NewtonOptions& options, Points& x,
-                        std::vector<double>& seconds);
+  NewtonReport minimise(const std::vector<EnergyTerm*>& terms, const NewtonOptions& options,
+                        Points& x, std::vector<double>& seconds);
 
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
@@ -54,9 +55,12 @@ class NewtonSolver
     double value = 0.0;
     double magnitude = 0.0;  ///< sum of the terms' absolute values: the scale of rounding errors
   };
-  Potential evaluate(const std::vector<EnergyTerm*>& terms, const Points& x, std::vector<double>& seconds);
-  double gradient(const std::vector<EnergyTerm*>& terms, const Points& x, std::vector<double>& seconds);
-  void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, std::vector<double>& seconds);
+  Potential evaluate(const std::vector<EnergyTerm*>& terms, const Points& x,
+                     std::vector<double>& seconds);
+  double gradient(const std::vector<EnergyTerm*>& terms, const Points& x,
+                  std::vector<double>& seconds);
+  void assemble(const std::vector<EnergyTerm*>& terms, const Points& x,
+                std::vector<double>& seconds);
 
   std::vector<Index> fixed_;
   std::vector<Index> fixed_blocks_;  ///< blocks in a row or column of a fixed node

@@ -15,7 +15,8 @@ using namespace test;
 
 constexpr double kYoung = 5000.0;
 
-/** Every registered material, at an ordinary, a zero, an auxetic and a nearly incompressible Poisson's ratio. */
+/** Every registered material, at an ordinary, a zero, an auxetic and a nearly incompressible
+ * Poisson's ratio. */
 class EveryMaterial : public ::testing::TestWithParam<std::tuple<MaterialModel, double>>
 {
  protected:
@@ -212,8 +213,7 @@ struct Cluster
 };
 
 class EveryModel : public ::testing::TestWithParam<MaterialModel>
-{
-};
+{};
 
 INSTANTIATE_TEST_SUITE_P(All, EveryModel,
                          ::testing::Values(MaterialModel::neo_hookean, MaterialModel::corotated));

@@ -22,7 +22,8 @@ tissues:
 tools:
   - name: probe
     shape: {capsule: {radius_m: 0.004, length_m: 0.02}}
-    pose_source: {keyframes: [{time_s: 0, position_m: [0, 0, 0.1]}, {time_s: 1, position_m: [0, 0, 0]}]}
+    pose_source:
+      keyframes: [{time_s: 0, position_m: [0, 0, 0.1]}, {time_s: 1, position_m: [0, 0, 0]}]
   - name: hook
     shape: {mesh: {file: mesh.msh, length_unit: m, scale: [1, 1, 1]}}
     pose_source: {topic: servo_cp}

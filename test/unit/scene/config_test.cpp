@@ -25,7 +25,8 @@ tissues:
   - name: liver
     mesh: {file: mesh.msh, length_unit: cm}
     pose: {position_m: [0.1, 0.2, 0.3], rotation_rpy_rad: [0.4, 0.5, 0.6]}
-    material: {model: corotated, young_modulus_pa: 3e3, poisson_ratio: 0.45, density_kg_per_m3: 1060}
+    material: {model: corotated, young_modulus_pa: 3e3, poisson_ratio: 0.45,
+               density_kg_per_m3: 1060}
     regions:
       - {tag: 2, young_modulus_pa: 3.0e4}
       - {tag: 3, poisson_ratio: -0.1, density_kg_per_m3: 900}
