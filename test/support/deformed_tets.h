@@ -5,22 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "soft_tissue_sim/mesh/tet_mesh.h"
+#include "support/mesh_samples.h"
 
 namespace soft_tissue
 {
 namespace test
 {
-/** The tet of the unit axes: its deformation gradient is its edge matrix. */
-inline TetMesh unitTet()
-{
-  TetMesh mesh;
-  mesh.nodes = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
-  mesh.tets = {{0, 1, 2, 3}};
-  mesh.tags = {0};
-  return mesh;
-}
-
 inline Mat3 randomMatrix(std::mt19937& random, double size)
 {
   std::uniform_real_distribution<double> uniform(-size, size);
@@ -62,8 +52,10 @@ inline std::vector<NamedF> deformationGradients()
   const Mat3 identity = Mat3::Identity();
   for (int k = 0; k < 5; ++k)
   {
-    all.push_back({"small strain", randomRotation(random) * (identity + randomMatrix(random, 0.02))});
-    all.push_back({"large strain", randomRotation(random) * (identity + randomMatrix(random, 0.4))});
+    all.push_back(
+        {"small strain", randomRotation(random) * (identity + randomMatrix(random, 0.02))});
+    all.push_back(
+        {"large strain", randomRotation(random) * (identity + randomMatrix(random, 0.4))});
     all.push_back({"squeezed to 1/5", stretched(random, 1.1, 0.9, 0.2)});
     all.push_back({"pulled to 3", stretched(random, 3.0, 0.6, 0.55)});
     all.push_back({"all of it doubled", stretched(random, 2.0, 2.0, 2.0)});
