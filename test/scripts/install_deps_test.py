@@ -11,7 +11,7 @@ UBUNTU = 'PRETTY_NAME="Ubuntu 22.04.4 LTS"\nID=ubuntu\nVERSION_ID="22.04"\n'
 NEEDED_TOOLS = ["bash", "env", "sed", "sort", "comm", "tr", "cat"]
 
 
-def run(*options, installed=(), release=DEBIAN_12, user=0, sudo=False, apt="exit 0"):
+def run(*options, installed=(), release=DEBIAN_12, user=0, sudo=False, apt="exit 0", localhost=True):
     """Runs the script with only stand-ins on PATH; returns (exit status, output, calls of apt-get)."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
@@ -19,6 +19,7 @@ def run(*options, installed=(), release=DEBIAN_12, user=0, sudo=False, apt="exit
         calls = folder / "calls"
         calls.touch()
         stand_ins = {"id": f"echo {user}",
+                     "getent": "exit 0" if localhost else "exit 2",
                      "dpkg-query": "\n".join(f"echo installed {name}" for name in installed) or "exit 1"}
         if apt is not None:
             stand_ins["apt-get"] = f'echo "$@" >> {calls}\n{apt}'
@@ -48,6 +49,10 @@ class InstallDeps(unittest.TestCase):
         self.assertNotIn("rviz", output.split())
         self.assertIn("rviz", packages("--demo"))
         self.assertIn("libbenchmark-dev", packages("--bench"))
+
+    def test_makes_localhost_known_where_it_is_not(self):
+        self.assertNotIn("libnss-myhostname", packages())
+        self.assertIn("libnss-myhostname", run("--list", localhost=False)[1].split())
 
     def test_asks_no_mirror_when_all_is_there(self):
         status, output, calls = run(installed=packages())
