@@ -27,22 +27,25 @@ why_stale()
     echo "it is not built with Ninja"
   elif [[ $(cached PYTHON_EXECUTABLE) != /usr/bin/python3 ]]; then
     echo "it was configured with the python $(cached PYTHON_EXECUTABLE)"
+  elif [[ $(cached CATKIN_DEVEL_PREFIX) != "$PWD/devel" ]]; then
+    echo "its devel space is not devel/"
   elif [[ ! -f build/build.ninja ]]; then
     echo "its configuration did not finish"
   fi
 }
 
-# build_targets TARGET...  Release, in build/, configured anew only when it has to be.
+# build_targets TARGET...  Release, in build/, configured anew only when it has to be. The devel space lies beside it,
+# for rosrun overlooks programs below a package's own build/.
 build_targets()
 {
   local reason
   reason=$(why_stale)
   if [[ -n $reason ]]; then
     echo "build/ is made anew: $reason"
-    rm -rf build
+    rm -rf build devel
   fi
   if [[ ! -f build/build.ninja ]]; then
-    cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release \
+    cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCATKIN_DEVEL_PREFIX="$PWD/devel" \
           -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3
   fi
   cmake --build build -j "${JOBS:-2}" --target "$@"

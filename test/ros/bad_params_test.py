@@ -3,17 +3,19 @@
 import subprocess
 import unittest
 
+import roslib.packages
 import rospkg
 import rospy
 import rostest
 
+NODE = roslib.packages.find_node("soft_tissue_sim", "sim_node")[0]
 SCENE = rospkg.RosPack().get_path("soft_tissue_sim") + "/test/ros/block.yaml"
 
 
 def start(**params):
     """Status and output of a node that is expected to end by itself."""
     arguments = ["_%s:=%s" % pair for pair in params.items()]
-    done = subprocess.run(["rosrun", "soft_tissue_sim", "sim_node", "__name:=refused"] + arguments,
+    done = subprocess.run([NODE, "__name:=refused"] + arguments,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=30, text=True)
     for name in params:
         rospy.delete_param("/refused/" + name)

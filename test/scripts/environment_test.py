@@ -7,7 +7,7 @@ import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "environment.sh"
 CACHE = {"CMAKE_HOME_DIRECTORY:INTERNAL": "{root}", "CMAKE_GENERATOR:INTERNAL": "Ninja",
-         "PYTHON_EXECUTABLE:FILEPATH": "/usr/bin/python3"}
+         "PYTHON_EXECUTABLE:FILEPATH": "/usr/bin/python3", "CATKIN_DEVEL_PREFIX:UNINITIALIZED": "{root}/devel"}
 
 
 class Environment(unittest.TestCase):
@@ -39,6 +39,10 @@ class Environment(unittest.TestCase):
     def test_another_python_is_seen(self):
         self.assertEqual(self.reason(PYTHON_EXECUTABLE__FILEPATH="/opt/python/bin/python3"),
                          "it was configured with the python /opt/python/bin/python3")
+
+    def test_another_devel_space_is_seen(self):
+        self.assertEqual(self.reason(CATKIN_DEVEL_PREFIX__UNINITIALIZED="{root}/build/devel"),
+                         "its devel space is not devel/")
 
     def test_a_moved_clone_is_seen(self):
         self.assertEqual(self.reason(CMAKE_HOME_DIRECTORY__INTERNAL="/elsewhere"), "it belongs to /elsewhere")
