@@ -88,11 +88,12 @@ double lobeLevel(const Vec3& p)
   return 1.0 - x * x - y * y - z * z - dent;
 }
 
-const Vec3 kNoduleCentre(-0.012, 0.006, 0.0205);
+const Vec3 kNoduleCentre(-0.012, 0.006, 0.0263);
+constexpr double kNoduleRadius = 0.009;
 
 double noduleLevel(const Vec3& p)
 {
-  return 0.008 - (p - kNoduleCentre).norm();
+  return kNoduleRadius - (p - kNoduleCentre).norm();
 }
 
 void needTets(std::size_t tets)

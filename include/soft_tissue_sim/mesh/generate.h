@@ -43,7 +43,7 @@ TetMesh makeTube(double inner_radius_m, double outer_radius_m, double length_m, 
 
 /**
  * An organ-like lobe of about 0.10 x 0.08 x 0.04 m without symmetry, its flat bottom on z = 0, with
- * a spherical nodule of 8 mm radius (tag kNoduleTag) whose top lies about 10 mm under the lobe's.
+ * a spherical nodule of 9 mm radius (tag kNoduleTag) whose top lies 4 mm under the lobe's.
  * @throws Error if tets < 500
  */
 TetMesh makeLobe(std::size_t tets);
