@@ -238,7 +238,7 @@ void ToolContact::addGradient(const Points& x, Points& gradient)
   addContactGradient(impl_->samplesAt(x), gradient);
 }
 
-void ToolContact::addHessian(const Points& x, BlockMatrix& hessian)
+void ToolContact::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& hessian)
 {
   addContactHessian(impl_->samplesAt(x), hessian);
 }

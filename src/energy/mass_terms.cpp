@@ -56,7 +56,7 @@ void Inertia::addGradient(const Points& x, Points& gradient)
   }
 }
 
-void Inertia::addHessian(const Points& x, BlockMatrix& hessian)
+void Inertia::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& hessian)
 {
   for (std::size_t i = 0; i < x.size(); ++i)
   {

@@ -22,10 +22,22 @@ struct PrincipalStiffness
   Pack sum[3];
 };
 
+/** Second derivatives of a law of I_C = |F|^2 and J = det F: P = m F + pressure cof(F),
+ * dP = m dF + curvature (F : dF) F + volumetric (cof : dF) cof + pressure dcof. */
+struct InvariantStiffness
+{
+  Pack m;
+  Pack curvature;
+  Pack volumetric;
+  Pack pressure;
+};
+
 /** Stable neo-Hookean: mu/2 (I_C - 3) + lambda/2 (J - alpha)^2 - mu/2 log(I_C + 1), zero at rest.
  */
 struct NeoHookean
 {
+  static constexpr bool kOfInvariants = true;
+
   /** mu, lambda, alpha of the law, and its energy density at F = I, so that small strains match E
    * and nu. */
   static void constants(double young_modulus, double poisson_ratio, double* c)
@@ -58,6 +70,13 @@ struct NeoHookean
     return p;
   }
 
+  static InvariantStiffness ofInvariants(const PackMat& f, const Pack* c)
+  {
+    const Pack inverse = 1.0 / (frobeniusSquared(f) + 1.0);
+    return {c[0] * (1.0 - inverse), 2.0 * c[0] * inverse * inverse, c[1],
+            c[1] * (determinant(f) - c[2])};
+  }
+
   static PrincipalStiffness principal(const Pack* s, const Pack* c)
   {
     const Pack inverse = 1.0 / (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 1.0);
@@ -84,6 +103,8 @@ struct NeoHookean
  * stretch negative). */
 struct Corotated
 {
+  static constexpr bool kOfInvariants = false;
+
   static void constants(double young_modulus, double poisson_ratio, double* c)
   {
     c[0] = young_modulus / (2.0 * (1.0 + poisson_ratio));

@@ -176,14 +176,16 @@ void TetElasticity::addGradient(const Points& x, Points& gradient)
   });
 }
 
-void TetElasticity::addHessian(const Points& x, BlockMatrix& hessian)
+void TetElasticity::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
 {
   if (matrix_blocks_ != hessian.columns().size())
   {
     prepareBlocks(hessian);
   }
+  const auto stiffness =
+      curvature == Curvature::exact ? kernels_->stiffness : kernels_->projected_stiffness;
   parallelFor(group_count_, kGroupGrain, [&](Index begin, Index end) {
-    kernels_->stiffness(groups_, begin, end, x.data()->data(), stiffness_.data());
+    stiffness(groups_, begin, end, x.data()->data(), stiffness_.data());
   });
   parallelFor(static_cast<Index>(block_position_.size()), kBlockGrain, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k)

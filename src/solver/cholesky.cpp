@@ -9,7 +9,7 @@ namespace
 class Cholesky : public LinearSolver
 {
  public:
-  int solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
+  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
   {
     if (matrix_.rows() != 3 * a.rows() || blocks_ != a.columns().size())
     {
@@ -17,14 +17,19 @@ class Cholesky : public LinearSolver
     }
     fill(a);
     factor_.factorize(matrix_);
-    if (factor_.info() != Eigen::Success)
+    if (factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() < 0.0)
+    {
+      d.assign(b.size(), Vec3::Zero());
+      return {1, true};
+    }
+    if (factor_.info() != Eigen::Success)  // singular
     {
       return iterative_->solve(a, b, tolerance, d);
     }
     const Eigen::Map<const Eigen::VectorXd> right(b.data()->data(), 3 * a.rows());
     d.resize(b.size());
     Eigen::Map<Eigen::VectorXd>(d.data()->data(), 3 * a.rows()) = factor_.solve(right);
-    return 1;
+    return {1, false};
   }
 
  private:

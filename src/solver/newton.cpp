@@ -13,6 +13,13 @@ namespace
 constexpr Index kGrain = 512;
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kMaxBacktracks = 40;
+/** Relative accuracy of the first linear solve; later ones follow the progress made. */
+constexpr double kFirstAccuracy = 0.01;
+/** After indefinite curvature, exact curvature is tried again when the residual has fallen to this
+ * share. */
+constexpr double kTrustAgain = 0.1;
+/** Moves this far below the size of the coordinates are rounding errors. */
+constexpr double kUnresolved = 1e-12;
 
 double dot(const Points& a, const Points& b)
 {
@@ -24,6 +31,18 @@ double dot(const Points& a, const Points& b)
     }
     return sum;
   });
+}
+
+/** Largest coordinate in size; NaN where one is. */
+double largest(const Points& points)
+{
+  double size = 0.0;
+  for (const Vec3& p : points)
+  {
+    const double here = p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    size = here > size || std::isnan(here) ? here : size;
+  }
+  return size;
 }
 
 void setZero(Points& points, std::size_t size)
@@ -99,13 +118,13 @@ double NewtonSolver::gradient(const std::vector<EnergyTerm*>& terms, const Point
 }
 
 void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points& x,
-                            std::vector<double>& seconds)
+                            Curvature curvature, std::vector<double>& seconds)
 {
   hessian_.setZero();
   for (std::size_t k = 0; k < terms.size(); ++k)
   {
     const ScopedTimer timer(seconds[k]);
-    terms[k]->addHessian(x, hessian_);
+    terms[k]->addHessian(x, curvature, hessian_);
   }
   // Fixed nodes: rows and columns of the identity.
   for (const Index position : fixed_blocks_)
@@ -119,90 +138,100 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
   }
 }
 
+/** Solves for direction_; false where the Hessian is indefinite. */
+bool NewtonSolver::solve(double accuracy, NewtonReport& report)
+{
+  const ScopedTimer timer(report.linear_s);
+  const LinearReport linear = linear_->solve(hessian_, descent_, accuracy, direction_);
+  report.linear_iterations += linear.iterations;
+  return !linear.indefinite;
+}
+
+/** Goes from x along direction_ to trial_ until the potential has fallen enough; false: nowhere. */
+bool NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Points& x,
+                              Potential& potential, std::vector<double>& seconds)
+{
+  const double slope = dot(gradient_, direction_);
+  if (!(slope < 0.0))
+  {
+    return false;  // no way down that rounding errors leave visible
+  }
+  double step = 1.0;
+  for (int k = 0; k < kMaxBacktracks; ++k, step *= 0.5)
+  {
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      trial_[i] = x[i] + step * direction_[i];
+    }
+    const Potential next = evaluate(terms, trial_, seconds);
+    const double rounding = 4e-15 * std::max(next.magnitude, potential.magnitude);
+    if (next.value <= potential.value + kSufficientDecrease * step * slope + rounding)
+    {
+      potential = next;
+      return true;
+    }
+  }
+  return false;
+}
+
 NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
                                     const NewtonOptions& options, Points& x,
                                     std::vector<double>& seconds)
 {
   NewtonReport report;
-  const auto overflowed = [&report] {
-    report.finite = false;
-    return report;
-  };
   const std::size_t n = x.size();
-  report.residual = gradient(terms, x, seconds);
-  if (!std::isfinite(report.residual))
-  {
-    return overflowed();
-  }
-  if (report.residual <= options.tolerance)
-  {
-    report.converged = true;
-    return report;
-  }
-  Potential potential = evaluate(terms, x, seconds);
-  if (!std::isfinite(potential.value))
-  {
-    return overflowed();
-  }
   descent_.resize(n);
   trial_.resize(n);
-  while (report.iterations < options.max_iterations)
+  report.residual = gradient(terms, x, seconds);
+  Potential potential;
+  double accuracy = kFirstAccuracy;
+  Curvature curvature = Curvature::exact;
+  double indefinite_at = 0.0;  // the residual where exact curvature last failed
+  while (report.residual > options.tolerance && report.iterations < options.max_iterations)
   {
+    if (report.iterations == 0)
+    {
+      potential = evaluate(terms, x, seconds);
+    }
     ++report.iterations;
-    assemble(terms, x, seconds);
     for (std::size_t i = 0; i < n; ++i)
     {
       descent_[i] = -gradient_[i];
     }
+    // More than the tolerance asked for is lost on this iteration.
+    accuracy = std::max({accuracy, 1e-10, 0.3 * options.tolerance / report.residual});
+    accuracy = std::min(accuracy, 0.1);
+    curvature = report.residual < kTrustAgain * indefinite_at || indefinite_at == 0.0
+                    ? Curvature::exact
+                    : Curvature::positive;
+    assemble(terms, x, curvature, seconds);
+    if (!solve(accuracy, report) && curvature == Curvature::exact)
     {
-      // As exact as this iteration can use: an error below the tolerance asked for is lost on the
-      // next one.
-      const ScopedTimer timer(report.linear_s);
-      const double accuracy = std::clamp(0.3 * options.tolerance / report.residual, 1e-10, 0.1);
-      report.linear_iterations += linear_->solve(hessian_, descent_, accuracy, direction_);
+      indefinite_at = report.residual;
+      assemble(terms, x, Curvature::positive, seconds);
+      solve(accuracy, report);
     }
-    const double slope = dot(gradient_, direction_);
-    if (!std::isfinite(slope))
+    if (largest(direction_) <= kUnresolved * largest(x))
     {
-      return overflowed();
+      report.converged = true;
+      return report;
     }
-    if (!(slope < 0.0))
-    {
-      break;  // no way down that rounding errors leave visible
-    }
-    double step = 1.0;
-    bool accepted = false;
-    for (int k = 0; k < kMaxBacktracks && !accepted; ++k, step *= 0.5)
-    {
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        trial_[i] = x[i] + step * direction_[i];
-      }
-      const Potential next = evaluate(terms, trial_, seconds);
-      const double rounding = 4e-15 * std::max(next.magnitude, potential.magnitude);
-      if (next.value <= potential.value + kSufficientDecrease * step * slope + rounding)
-      {
-        potential = next;
-        accepted = true;
-      }
-    }
-    if (!accepted)
+    if (!searchLine(terms, x, potential, seconds))
     {
       break;
     }
     x.swap(trial_);
+    const double before = report.residual;
     report.residual = gradient(terms, x, seconds);
     if (!std::isfinite(report.residual))
     {
       x.swap(trial_);
-      return overflowed();
-    }
-    if (report.residual <= options.tolerance)
-    {
-      report.converged = true;
       break;
     }
+    accuracy = report.residual / before * report.residual / before;
   }
+  report.finite = std::isfinite(report.residual) && std::isfinite(potential.value);
+  report.converged = report.residual <= options.tolerance;
   return report;
 }
 

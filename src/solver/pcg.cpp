@@ -15,7 +15,7 @@ class Pcg : public LinearSolver
  public:
   Pcg() : product_(blockProduct(instructionSet())) {}
 
-  int solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
+  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
   {
     const Index n = a.rows();
     invertDiagonal(a);
@@ -24,6 +24,7 @@ class Pcg : public LinearSolver
     direction_.resize(n);
     image_.resize(n);
     d.assign(n, Vec3::Zero());
+    const double enough = tolerance * tolerance * squaredNorm(b);
     double rz = parallelSum(n, kGrain, [&](Index begin, Index end) {
       double sum = 0.0;
       for (Index i = begin; i < end; ++i)
@@ -33,7 +34,10 @@ class Pcg : public LinearSolver
       }
       return sum;
     });
-    const double enough = tolerance * tolerance * squaredNorm(b);
+    if (rz == 0.0)
+    {
+      return {};
+    }
     const BlockRows rows = {a.offsets().data(), a.columns().data(), a.values().data()};
     const int most = 10 * static_cast<int>(n) + 100;
     for (int iteration = 1; iteration <= most; ++iteration)
@@ -49,7 +53,7 @@ class Pcg : public LinearSolver
       });
       if (!(curvature > 0.0))
       {
-        return iteration;  // zero right-hand side, or a matrix that is not positive definite
+        return {iteration, true};
       }
       const double step = rz / curvature;
       const double squared = parallelSum(n, kGrain, [&](Index begin, Index end) {
@@ -64,7 +68,7 @@ class Pcg : public LinearSolver
       });
       if (squared <= enough)
       {
-        return iteration;
+        return {iteration, false};
       }
       const double rz_next = parallelSum(n, kGrain, [&](Index begin, Index end) {
         double sum = 0.0;
@@ -84,7 +88,7 @@ class Pcg : public LinearSolver
         }
       });
     }
-    return most;
+    return {most, false};
   }
 
  private:

@@ -12,7 +12,7 @@ namespace test
 /** Sixth-order central difference of f at 0: slow, obvious, exact to about 1e-11 of smooth
  * functions. */
 template <typename Function>
-auto derivative(const Function& f, double h)
+auto derivative(const Function& f, double h) -> decltype(f(h))
 {
   return ((f(3 * h) - f(-3 * h)) - 9.0 * (f(2 * h) - f(-2 * h)) + 45.0 * (f(h) - f(-h))) /
          (60.0 * h);
@@ -75,10 +75,11 @@ inline Eigen::MatrixXd dense(const BlockMatrix& a)
 }
 
 /** Second derivative of a term as it says, 3N x 3N. */
-inline Eigen::MatrixXd hessianOf(EnergyTerm& term, const Points& x, const Adjacency& neighbours)
+inline Eigen::MatrixXd hessianOf(EnergyTerm& term, const Points& x, const Adjacency& neighbours,
+                                 Curvature curvature = Curvature::positive)
 {
   BlockMatrix hessian(neighbours);
-  term.addHessian(x, hessian);
+  term.addHessian(x, curvature, hessian);
   return dense(hessian);
 }
 

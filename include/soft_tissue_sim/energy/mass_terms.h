@@ -26,7 +26,7 @@ class Inertia : public EnergyTerm
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
-  void addHessian(const Points& x, BlockMatrix& hessian) override;
+  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
 
  private:
   const std::vector<double>& masses_;
@@ -45,7 +45,7 @@ class Gravity : public EnergyTerm
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
-  void addHessian(const Points&, BlockMatrix&) override {}
+  void addHessian(const Points&, Curvature, BlockMatrix&) override {}
 
  private:
   const std::vector<double>& masses_;
@@ -61,7 +61,7 @@ class NodalLoads : public EnergyTerm
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
-  void addHessian(const Points&, BlockMatrix&) override {}
+  void addHessian(const Points&, Curvature, BlockMatrix&) override {}
 
  private:
   Points forces_;

@@ -5,6 +5,13 @@
 
 namespace soft_tissue
 {
+/** Which second derivative a minimisation asks for. */
+enum class Curvature
+{
+  exact,     ///< as it is: fast convergence, but possibly indefinite
+  positive,  ///< its positive semi-definite part, element by element: always a way down
+};
+
 /**
  * One term of the potential, a function of the positions of all nodes of all bodies.
  *
@@ -24,8 +31,8 @@ class EnergyTerm
   /** gradient += d value / dx. */
   virtual void addGradient(const Points& x, Points& gradient) = 0;
 
-  /** hessian += positive semi-definite part of d2 value / dx2. */
-  virtual void addHessian(const Points& x, BlockMatrix& hessian) = 0;
+  /** hessian += d2 value / dx2, or its positive semi-definite part. */
+  virtual void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) = 0;
 };
 
 }  // namespace soft_tissue

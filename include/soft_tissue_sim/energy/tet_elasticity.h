@@ -30,7 +30,7 @@ class TetElasticity : public EnergyTerm
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
-  void addHessian(const Points& x, BlockMatrix& hessian) override;
+  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
 
   /** Smallest det F over all tets: 1 at rest, <= 0 when one is inverted. */
   double minDetF(const Points& x);

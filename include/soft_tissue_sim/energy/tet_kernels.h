@@ -47,8 +47,11 @@ struct TetKernels
   void (*energy)(const TetGroups&, Index begin, Index end, const double* x, double* energies);
   /** gradients[tet][12], N. */
   void (*gradient)(const TetGroups&, Index begin, Index end, const double* x, double* gradients);
-  /** stiffness[tet][kTetStiffnessSize], N/m, projected positive semi-definite. */
+  /** stiffness[tet][kTetStiffnessSize], N/m: the second derivative. */
   void (*stiffness)(const TetGroups&, Index begin, Index end, const double* x, double* stiffness);
+  /** The same, each tet's negative eigenvalues set to zero. */
+  void (*projected_stiffness)(const TetGroups&, Index begin, Index end, const double* x,
+                              double* stiffness);
   /** det_f[group][8] and, unless null, von_mises[group][8] in Pa. */
   void (*state)(const TetGroups&, Index begin, Index end, const double* x, double* det_f,
                 double* von_mises);

@@ -27,9 +27,10 @@ class CommandGate
   std::uint64_t accepted() const { return accepted_; }
   std::uint64_t rejected(Rejection rejection) const;
   std::uint64_t rejectedInAll() const;
-  /** Whether commands came and then stopped for longer than the watchdog allows. */
+  /** Whether commands came and then stopped for longer than the watchdog allows, or the clock went
+   * back since. */
   bool stale() const;
-  /** Seconds since the last accepted command. */
+  /** Seconds since the last accepted command; < 0 if the clock went back since. */
   double silence() const;
 
  private:

@@ -38,8 +38,8 @@ class MarkerBuilder
   visualization_msgs::MarkerArray build(const soft_tissue::Snapshot& snapshot, TissueDepths& depths,
                                         const Stamp& stamp) const;
 
-  /** The array that removes all markers. */
-  static visualization_msgs::MarkerArray deleteAll(const Stamp& stamp);
+  /** Removes all markers shown so far; the first of an array, if in one. */
+  static visualization_msgs::Marker deleteAll(const Stamp& stamp);
 
  private:
   const SceneInfo& info_;

@@ -88,6 +88,7 @@ class PhysicsLoop
   void waitForTask(double seconds);
   void execute(std::function<void()> task);
   bool stepIfDue();
+  bool clockHasStarted();
   void advance();
   void publishFrame();
   double clockNow() const;
@@ -100,6 +101,7 @@ class PhysicsLoop
   std::deque<CommandSlot> slots_;  ///< one per tool
   std::vector<std::optional<soft_tissue::Pose>> targets_W_;
   StepSchedule schedule_;
+  bool clock_started_ = false;
   RealTimeMeter meter_;
   std::uint64_t resets_ = 0;
   ros::Time stamp_;

@@ -6,6 +6,7 @@
 #include <tf2_ros/buffer.h>
 
 #include <deque>
+#include <optional>
 #include <string>
 
 #include "soft_tissue_sim/node/command_gate.h"
@@ -57,19 +58,25 @@ class TopicInput
 class TfInput
 {
  public:
+  /** @param patience_s  how long the frame may be missing, at the start or later, until that is
+   * counted as a rejection, once */
   TfInput(std::string frame, CommandGate& gate, const tf2_ros::Buffer& buffer,
-          std::string world_frame);
+          std::string world_frame, double patience_s);
 
-  /** Looks the frame up; what is not new is not a command. A lost frame is rejected once. */
+  /** Looks the frame up; what is not new is not a command. */
   void poll();
 
  private:
+  void onMissing(const std::string& reason);
+
   std::string frame_;
   CommandGate& gate_;
   const tf2_ros::Buffer& buffer_;
   std::string world_frame_;
+  double patience_s_;
   ros::Time last_stamp_;
-  bool found_ = true;
+  std::optional<double> missing_since_s_;  ///< steady clock
+  bool missing_reported_ = false;
 };
 
 }  // namespace soft_tissue_sim

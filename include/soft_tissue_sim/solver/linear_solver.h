@@ -13,6 +13,12 @@ enum class LinearSolverKind
   cholesky,   ///< sparse LDL^T, its symbolic part kept from step to step
 };
 
+struct LinearReport
+{
+  int iterations = 0;
+  bool indefinite = false;  ///< A was found not to be positive definite
+};
+
 /** Solves A d = b for symmetric positive definite A of 3 x 3 blocks. */
 class LinearSolver
 {
@@ -21,10 +27,9 @@ class LinearSolver
 
   /**
    * @param tolerance  stop when |b - A d| <= tolerance |b|; direct solvers ignore it
-   * @param d          out, N x 3
-   * @return iterations done
+   * @param d          out, N x 3; of an indefinite A what was found until then, perhaps zero
    */
-  virtual int solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) = 0;
+  virtual LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();

@@ -10,8 +10,10 @@ namespace soft_tissue
 {
 struct NewtonOptions
 {
-  /** Stop when |sum of forces| <= tolerance * sum of the norms of the terms' forces, free nodes
-   * only. */
+  /**
+   * Stop when |sum of forces| <= tolerance * sum of the norms of the terms' forces, free nodes
+   * only; or when the forces left would move no node by more than positions can tell apart.
+   */
   double tolerance = 1e-3;
   int max_iterations = 20;
 };
@@ -26,7 +28,12 @@ struct NewtonReport
   double linear_s = 0.0;  ///< wall time in linear solves
 };
 
-/** Minimises a sum of energy terms over the free nodes by Newton's method with line search. */
+/**
+ * Minimises a sum of energy terms over the free nodes by Newton's method with line search.
+ *
+ * Exact second derivatives first: they converge quadratically. Where they turn out indefinite, that
+ * iteration and the next few take their positive part instead, which always leads down.
+ */
 class NewtonSolver
 {
  public:
@@ -59,8 +66,11 @@ class NewtonSolver
                      std::vector<double>& seconds);
   double gradient(const std::vector<EnergyTerm*>& terms, const Points& x,
                   std::vector<double>& seconds);
-  void assemble(const std::vector<EnergyTerm*>& terms, const Points& x,
+  void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
                 std::vector<double>& seconds);
+  bool solve(double accuracy, NewtonReport& report);
+  bool searchLine(const std::vector<EnergyTerm*>& terms, const Points& x, Potential& potential,
+                  std::vector<double>& seconds);
 
   std::vector<Index> fixed_;
   std::vector<Index> fixed_blocks_;  ///< blocks in a row or column of a fixed node

@@ -108,7 +108,7 @@ TEST(ContactHessian, RejectsAMatrixWithoutItsCouplings)
   Adjacency lonely;
   lonely.offsets.assign(scene.mesh.nodes.size() + 1, 0);
   BlockMatrix diagonal(lonely);
-  EXPECT_THROW(scene.contact->addHessian(scene.mesh.nodes, diagonal), Error);
+  EXPECT_THROW(scene.contact->addHessian(scene.mesh.nodes, Curvature::positive, diagonal), Error);
 }
 
 }  // namespace soft_tissue::test

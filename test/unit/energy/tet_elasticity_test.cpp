@@ -82,7 +82,25 @@ TEST_P(EveryMaterial, GradientIsTheEnergysDerivative)
   }
 }
 
-TEST_P(EveryMaterial, HessianIsTheGradientsDerivativeProjected)
+TEST_P(EveryMaterial, HessianIsTheGradientsDerivative)
+{
+  TetElasticity term = unitElement();
+  for (const NamedF& f : deformationGradients())
+  {
+    const Points x = deformedUnitTet(f.f);
+    const Eigen::MatrixXd hessian = hessianOf(term, x, neighbours_, Curvature::exact);
+    ASSERT_TRUE(hessian.allFinite()) << f.name;
+    const double size = scale() + hessian.norm();
+    EXPECT_LT((hessian - hessian.transpose()).norm(), 1e-14 * size) << f.name;
+    EXPECT_LT((hessian * Eigen::VectorXd::Ones(12)).norm(), 1e-13 * size) << f.name;
+    if (f.smooth || model() == MaterialModel::neo_hookean)
+    {
+      EXPECT_LT((hessian - differenceHessian(term, x, 1e-4)).norm(), 1e-7 * size) << f.name;
+    }
+  }
+}
+
+TEST_P(EveryMaterial, ProjectedHessianIsThePositivePart)
 {
   TetElasticity term = unitElement();
   for (const NamedF& f : deformationGradients())
@@ -98,8 +116,10 @@ TEST_P(EveryMaterial, HessianIsTheGradientsDerivativeProjected)
     if (f.smooth || model() == MaterialModel::neo_hookean)
     {
       // Nodes 1, 2, 3 of the unit tet are the columns of F: their block is V dP/dF itself.
-      const Eigen::MatrixXd exact = differenceHessian(term, x, 1e-4).bottomRightCorner(9, 9);
-      EXPECT_LT((hessian.bottomRightCorner(9, 9) - projected(exact)).norm(), 1e-7 * size) << f.name;
+      const Eigen::MatrixXd exact =
+          hessianOf(term, x, neighbours_, Curvature::exact).bottomRightCorner(9, 9);
+      EXPECT_LT((hessian.bottomRightCorner(9, 9) - projected(exact)).norm(), 1e-12 * size)
+          << f.name;
     }
   }
 }
@@ -255,10 +275,12 @@ TEST_P(EveryModel, GivesTheSameBitsOnEveryInstructionSetAndThreadCount)
       setThreadCount(threads);
       forceInstructionSet(static_cast<InstructionSet>(set));
       TetElasticity term(cluster.mesh, GetParam(), cluster.parameters, cluster.first_node);
-      Eigen::MatrixXd result(3 * cluster.x.size(), 3 * cluster.x.size() + 2);
-      result.leftCols(3 * cluster.x.size()) = hessianOf(term, cluster.x, neighbours);
-      result.col(3 * cluster.x.size()) = gradientOf(term, cluster.x);
-      result.col(3 * cluster.x.size() + 1).setConstant(term.value(cluster.x));
+      const Eigen::Index size = 3 * static_cast<Eigen::Index>(cluster.x.size());
+      Eigen::MatrixXd result(size, 2 * size + 2);
+      result.leftCols(size) = hessianOf(term, cluster.x, neighbours, Curvature::exact);
+      result.middleCols(size, size) = hessianOf(term, cluster.x, neighbours, Curvature::positive);
+      result.col(2 * size) = gradientOf(term, cluster.x);
+      result.col(2 * size + 1).setConstant(term.value(cluster.x));
       results.push_back(result);
     }
   }
