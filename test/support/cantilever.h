@@ -1,0 +1,130 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "soft_tissue_sim/energy/mass_terms.h"
+#include "soft_tissue_sim/energy/tet_elasticity.h"
+#include "soft_tissue_sim/mesh/generate.h"
+#include "soft_tissue_sim/solver/newton.h"
+#include "support/elastica.h"
+
+namespace soft_tissue::test
+{
+/** A slender beam of linear tets with a square section, clamped at x = 0, nu = 0; gravity is -z. */
+class Cantilever
+{
+ public:
+  static constexpr double kLength = 0.2;    // m
+  static constexpr double kSlender = 20.0;  // length over thickness
+  static constexpr double kThick = kLength / kSlender;
+  static constexpr double kYoung = 1e4;                                                  // Pa
+  static constexpr double kDensity = 1000.0;                                             // kg/m^3
+  static constexpr double kBending = kYoung * kThick * kThick * kThick * kThick / 12.0;  // EI
+
+  /** Cubes of a `cells`-th of the thickness along and across the beam, one over its width: what
+   * does not change along y does not need more. */
+  Cantilever(MaterialModel model, int cells)
+      : cells_{static_cast<int>(kSlender) * cells, 1, cells},
+        rest_(makeBox(cells_, {kLength, kThick, kThick})),
+        masses_(rest_.nodes.size(), 0.0),
+        end_share_(rest_.nodes.size(), 0.0),
+        elasticity_(rest_, model, {rest_.tets.size(), {kYoung, 0.0}}, 0)
+  {
+    const auto count = static_cast<Index>(rest_.nodes.size());
+    addLumpedMasses(rest_, std::vector<double>(rest_.tets.size(), kDensity), 0, masses_);
+    std::vector<Index> clamped;
+    for (Index i = 0; i < count; ++i)
+    {
+      if (rest_.nodes[i].x() == 0.0)
+      {
+        clamped.push_back(i);
+      }
+    }
+    for (const Triangle& t : extractBoundary(count, rest_.tets).triangles)
+    {
+      const Vec3& a = rest_.nodes[t[0]];
+      const Vec3 area = 0.5 * (rest_.nodes[t[1]] - a).cross(rest_.nodes[t[2]] - a);
+      if (area.x() > 0.9 * area.norm())
+      {
+        for (const Index node : t)
+        {
+          end_share_[node] += area.norm() / (3.0 * kThick * kThick);
+        }
+      }
+    }
+    newton_ =
+        std::make_unique<NewtonSolver>(nodeNeighbours(count, rest_.tets), clamped, makeCholesky());
+  }
+
+  const TetMesh& rest() const { return rest_; }
+
+  /** The beam at rest under these loads (stretch and shear are its own); x: start and solution. */
+  NewtonReport bend(const BeamLoad& load, Points& x)
+  {
+    const double tip_force = load.tip * kBending / (kLength * kLength);
+    Points forces;
+    for (const double share : end_share_)
+    {
+      forces.emplace_back(0.0, 0.0, -share * tip_force);
+    }
+    NodalLoads pull(forces);
+    const double weight = load.weight * kBending / (kLength * kLength * kLength);
+    Gravity gravity(masses_, {0.0, 0.0, -weight / (kDensity * kThick * kThick)});
+    const std::vector<EnergyTerm*> terms = {&elasticity_, &pull, &gravity};
+    NewtonOptions options;
+    options.tolerance = 1e-7;
+    options.max_iterations = 200;
+    std::vector<double> seconds(terms.size(), 0.0);
+    return newton_->minimise(terms, options, x, seconds);
+  }
+
+  /** Mean displacement of the end face, in units of the length. */
+  BeamTip tip(const Points& x) const
+  {
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      mean += end_share_[i] * (x[i] - rest_.nodes[i]);
+    }
+    return {-mean.x() / kLength, -mean.z() / kLength, 0.0};
+  }
+
+  /** The same shape on a mesh of half the cell size: new nodes midway between old ones. */
+  static Points refined(const Cantilever& coarse, const Points& x, const Cantilever& fine)
+  {
+    const auto place = [](int at, int side) { return at % 2 == 0 ? at / 2 : at / 2 + side; };
+    Points finer;
+    for (int k = 0; k <= fine.cells_[2]; ++k)
+    {
+      for (int j = 0; j <= fine.cells_[1]; ++j)
+      {
+        for (int i = 0; i <= fine.cells_[0]; ++i)
+        {
+          Vec3 sum = Vec3::Zero();
+          for (int corner = 0; corner < 4; ++corner)
+          {
+            sum += x[coarse.node(place(i, corner % 2), j, place(k, corner / 2))];
+          }
+          finer.push_back(0.25 * sum);
+        }
+      }
+    }
+    return finer;
+  }
+
+ private:
+  Index node(int i, int j, int k) const
+  {
+    return static_cast<Index>((k * (cells_[1] + 1) + j) * (cells_[0] + 1) + i);
+  }
+
+  std::array<int, 3> cells_;
+  TetMesh rest_;
+  std::vector<double> masses_;
+  std::vector<double> end_share_;  ///< of the end face's area, per node
+  TetElasticity elasticity_;
+  std::unique_ptr<NewtonSolver> newton_;
+};
+
+}  // namespace soft_tissue::test
