@@ -99,6 +99,10 @@ bool PhysicsLoop::stepIfDue()
     advance();
     return true;
   }
+  if (!clockHasStarted())
+  {
+    return false;
+  }
   const bool due = schedule_.due(clockNow()) > 0;
   counters_.missed_deadlines = schedule_.dropped();
   counters_.clock_jumps_back = schedule_.jumpsBack();
@@ -107,6 +111,17 @@ bool PhysicsLoop::stepIfDue()
     advance();
   }
   return due;
+}
+
+/** ROS time is zero until the first /clock: going from there to its first value is no delay. */
+bool PhysicsLoop::clockHasStarted()
+{
+  if (!clock_started_ && clockNow() > 0.0)
+  {
+    clock_started_ = true;
+    restartClocks();
+  }
+  return clock_started_;
 }
 
 void PhysicsLoop::advance()

@@ -1,0 +1,180 @@
+#include "soft_tissue_sim/node/physics_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "soft_tissue_sim/node/scene_loader.h"
+
+namespace soft_tissue_sim
+{
+namespace
+{
+constexpr double kStep = 0.005;  // s, as in the scene
+constexpr double kStart = 1000.0;
+
+/** Waits until something holds, at most a minute. */
+template <typename Condition>
+bool waitFor(const Condition& condition)
+{
+  for (int i = 0; i < 60000 && !condition(); ++i)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return condition();
+}
+
+class Loop : public testing::Test
+{
+ protected:
+  Loop() { ros::Time::init(); }
+  ~Loop() override { ros::Time::useSystemTime(); }
+
+  void start(TimeSource source, bool paused = false)
+  {
+    loop_ = std::make_unique<PhysicsLoop>(buildScene(loadConfig(SOURCE_DIR "/test/ros/block.yaml")),
+                                          PhysicsLoop::Config{1.0, paused, source},
+                                          [](const std::string& what) { ADD_FAILURE() << what; });
+    loop_->start();
+    EXPECT_TRUE(loop_->frames().acquire(late()));
+  }
+
+  /** Starts under a clock that shows kStart, and waits until the loop follows it. */
+  void startUnderClock()
+  {
+    setClock(kStart);
+    start(TimeSource::ros_clock);
+    EXPECT_TRUE(waitFor([this] {
+      setClock(now_ + kStep);
+      return steps() > 0;
+    }));
+    EXPECT_TRUE(waitFor([this] { return newest().stamp.toSec() > now_ - 0.5 * kStep; }));
+    before_ = steps();
+  }
+
+  void setClock(double seconds)
+  {
+    now_ = seconds;
+    ros::Time::setNow(ros::Time(seconds));
+  }
+
+  std::uint64_t steps() const { return loop_->counters().steps; }
+
+  /** So many steps were done since startUnderClock(), and for some time no more. */
+  void expectStepped(std::uint64_t count)
+  {
+    EXPECT_TRUE(waitFor([&] { return steps() >= before_ + count; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(steps(), before_ + count);
+  }
+
+  const Frame& newest()
+  {
+    loop_->frames().acquire(std::chrono::steady_clock::now());
+    return loop_->frames().front();
+  }
+
+  static LatestExchange<Frame>::Deadline late()
+  {
+    return std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  }
+
+  std::unique_ptr<PhysicsLoop> loop_;
+  double now_ = 0.0;
+  std::uint64_t before_ = 0;
+};
+
+TEST_F(Loop, doesAllStepsTheClockMovesOnBy)
+{
+  startUnderClock();
+  for (int i = 0; i < 20; ++i)
+  {
+    setClock(now_ + 2 * kStep);
+  }
+  setClock(now_ + 100 * kStep);
+  expectStepped(140);
+  EXPECT_NEAR(newest().stamp.toSec(), now_, 1e-6);
+  EXPECT_EQ(loop_->counters().missed_deadlines, 0u);
+}
+
+TEST_F(Loop, aClockThatStartsIsNoDelay)
+{
+  setClock(0.0);
+  start(TimeSource::ros_clock);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(steps(), 0u);
+  setClock(kStart);
+  EXPECT_TRUE(waitFor([this] {
+    setClock(now_ + kStep);
+    return steps() > 0;
+  }));
+  EXPECT_EQ(loop_->counters().missed_deadlines, 0u);
+}
+
+TEST_F(Loop, aClockThatJumpsIsFollowedFromThere)
+{
+  startUnderClock();
+  setClock(now_ - 500.0);
+  EXPECT_TRUE(waitFor([this] { return loop_->counters().clock_jumps_back == 1; }));
+  setClock(now_ + 10 * kStep);
+  expectStepped(10);
+  setClock(now_ + 100.0);
+  expectStepped(11);
+  EXPECT_EQ(loop_->counters().missed_deadlines, 19999u);
+  setClock(now_ + 5 * kStep);
+  expectStepped(16);
+}
+
+TEST_F(Loop, onlyAPausedLoopStepsOnDemand)
+{
+  start(TimeSource::wall);
+  EXPECT_FALSE(loop_->step(1));
+  EXPECT_TRUE(waitFor([this] { return steps() > 0; }));
+  loop_->setPaused(true);
+  const std::uint64_t before = steps();
+  const std::optional<double> time = loop_->step(7);
+  ASSERT_TRUE(time);
+  EXPECT_NEAR(*time, static_cast<double>(before + 7) * kStep, 1e-9);
+  EXPECT_EQ(steps(), before + 7);
+  EXPECT_NEAR(newest().snapshot.report.time_s, *time, 1e-9);
+  loop_->setPaused(false);
+  EXPECT_TRUE(waitFor([&] { return steps() > before + 7; }));
+}
+
+TEST_F(Loop, obeysTheNewestCommandUntilAReset)
+{
+  start(TimeSource::own_clock, true);
+  const soft_tissue::Pose first = newest().snapshot.tools[0].X_WT;
+  for (const double z : {0.07, 0.05})
+  {
+    loop_->commandSlot(0).put(soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, z)));
+  }
+  ASSERT_TRUE(loop_->step(1));
+  EXPECT_NEAR(newest().snapshot.tools[0].X_WT.translation().z(), 0.05, 1e-12);
+  loop_->commandSlot(0).put(soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, 0.08)));
+  loop_->resetWorld();
+  EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
+  EXPECT_EQ(newest().resets, 1u);
+  const std::optional<double> time = loop_->step(1);
+  ASSERT_TRUE(time);
+  EXPECT_NEAR(*time, 2 * kStep, 1e-12);
+  EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
+  EXPECT_NEAR(newest().stamp.toSec(), 2 * kStep, 1e-9);
+}
+
+TEST_F(Loop, stopsInTheMiddleOfALongTask)
+{
+  start(TimeSource::wall, true);
+  std::thread caller([this] { loop_->step(1000000000u); });
+  EXPECT_TRUE(waitFor([this] { return steps() > 0; }));
+  std::thread waiting([this] { loop_->resetWorld(); });
+  loop_->stop();
+  caller.join();
+  waiting.join();
+  EXPECT_FALSE(loop_->step(1));
+}
+
+}  // namespace
+}  // namespace soft_tissue_sim
