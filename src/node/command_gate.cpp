@@ -60,7 +60,8 @@ std::uint64_t CommandGate::rejectedInAll() const
 
 bool CommandGate::stale() const
 {
-  return accepted_ > 0 && silence() > watchdog_s_;
+  const double silent_s = silence();
+  return accepted_ > 0 && (silent_s > watchdog_s_ || silent_s < 0.0);
 }
 
 double CommandGate::silence() const

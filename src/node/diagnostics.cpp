@@ -9,7 +9,11 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 void reportCommands(const CommandGate& gate, DiagnosticStatusWrapper& status)
 {
-  if (gate.stale())
+  if (gate.stale() && gate.silence() < 0.0)
+  {
+    status.summary(DiagnosticStatus::WARN, "no command since the clock went back: pose held");
+  }
+  else if (gate.stale())
   {
     status.summaryf(DiagnosticStatus::WARN, "no command for %.1f s: pose held", gate.silence());
   }

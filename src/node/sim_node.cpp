@@ -10,6 +10,8 @@ namespace
 {
 using Kind = soft_tissue::PoseSourceConfig::Kind;
 
+constexpr double kTfPatience = 2.0;  // s: nodes that start together don't start at once
+
 }  // namespace
 
 SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene)
@@ -69,7 +71,7 @@ void SimNode::addInputs(const std::vector<soft_tissue::ToolConfig>& tools)
                                  "', which is a frame this node broadcasts itself");
       }
     }
-    tf_inputs_.emplace_back(source.name, gate, buffer_, params_.world_frame);
+    tf_inputs_.emplace_back(source.name, gate, buffer_, params_.world_frame, kTfPatience);
   }
   input_timer_ = node_.createWallTimer(ros::WallDuration(1.0 / params_.tf_poll_hz),
                                        [this](const ros::WallTimerEvent&) { pollInputs(); });

@@ -106,8 +106,12 @@ TopicInput::Resolved TopicInput::resolve(const geometry_msgs::PoseStamped& comma
 }
 
 TfInput::TfInput(std::string frame, CommandGate& gate, const tf2_ros::Buffer& buffer,
-                 std::string world_frame)
-    : frame_(std::move(frame)), gate_(gate), buffer_(buffer), world_frame_(std::move(world_frame))
+                 std::string world_frame, double patience_s)
+    : frame_(std::move(frame)),
+      gate_(gate),
+      buffer_(buffer),
+      world_frame_(std::move(world_frame)),
+      patience_s_(patience_s)
 {}
 
 void TfInput::poll()
@@ -119,14 +123,11 @@ void TfInput::poll()
   }
   catch (const tf2::TransformException& error)
   {
-    if (found_)
-    {
-      gate_.reject(Rejection::unknown_frame, error.what());
-    }
-    found_ = false;
+    onMissing(error.what());
     return;
   }
-  found_ = true;
+  missing_since_s_.reset();
+  missing_reported_ = false;
   const bool is_static = X_WT.header.stamp.isZero();
   if (!is_static && gate_.accepted() > 0 && X_WT.header.stamp == last_stamp_)
   {
@@ -141,6 +142,17 @@ void TfInput::poll()
     return;
   }
   gate_.accept(pose);
+}
+
+void TfInput::onMissing(const std::string& reason)
+{
+  const double now = ros::SteadyTime::now().toSec();
+  missing_since_s_ = missing_since_s_.value_or(now);
+  if (!missing_reported_ && now - *missing_since_s_ >= patience_s_)
+  {
+    missing_reported_ = true;
+    gate_.reject(Rejection::unknown_frame, "frame '" + frame_ + "': " + reason);
+  }
 }
 
 }  // namespace soft_tissue_sim
