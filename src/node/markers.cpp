@@ -234,14 +234,13 @@ visualization_msgs::MarkerArray MarkerBuilder::build(const Snapshot& snapshot, T
   return array;
 }
 
-visualization_msgs::MarkerArray MarkerBuilder::deleteAll(const Stamp& stamp)
+Marker MarkerBuilder::deleteAll(const Stamp& stamp)
 {
-  visualization_msgs::MarkerArray array;
-  array.markers.emplace_back();
-  array.markers.back().header.frame_id = stamp.world_frame;
-  array.markers.back().header.stamp = stamp.time;
-  array.markers.back().action = Marker::DELETEALL;
-  return array;
+  Marker marker;
+  marker.header.frame_id = stamp.world_frame;
+  marker.header.stamp = stamp.time;
+  marker.action = Marker::DELETEALL;
+  return marker;
 }
 
 }  // namespace soft_tissue_sim

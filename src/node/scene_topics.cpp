@@ -11,7 +11,7 @@ SceneTopics::SceneTopics(ros::NodeHandle& node, const SceneInfo& info, TissueDep
     : builder_(info, options), depths_(depths), world_frame_(world_frame)
 {
   stats_ = node.advertise<SimStats>("stats", 1, on_subscriber);
-  markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", 2, on_subscriber);
+  markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", 1, on_subscriber);
   if (publish_clock)
   {
     clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10, true);
@@ -34,13 +34,14 @@ void SceneTopics::publishMarkers(const Frame& frame)
     return;
   }
   const Stamp stamp{frame.stamp, world_frame_};
+  visualization_msgs::MarkerArray array = builder_.build(frame.snapshot, depths_, stamp);
   if (frame.resets != last_resets_)
   {
     last_resets_ = frame.resets;
-    markers_.publish(MarkerBuilder::deleteAll(stamp));
+    array.markers.insert(array.markers.begin(), MarkerBuilder::deleteAll(stamp));
   }
   ++marker_arrays_built_;
-  markers_.publish(builder_.build(frame.snapshot, depths_, stamp));
+  markers_.publish(array);
 }
 
 void SceneTopics::publishClock(const Frame& frame) const
