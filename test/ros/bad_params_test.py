@@ -16,7 +16,7 @@ def start(**params):
     """Status and output of a node that is expected to end by itself."""
     arguments = ["_%s:=%s" % pair for pair in params.items()]
     done = subprocess.run([NODE, "__name:=refused"] + arguments,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=30, text=True)
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60, text=True)
     for name in params:
         rospy.delete_param("/refused/" + name)
     return done.returncode, done.stdout

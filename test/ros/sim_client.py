@@ -1,4 +1,10 @@
-"""What the tests of the running node share: messages as they come, waiting, commands, services."""
+"""What the tests of the running node share: messages as they come, waiting, commands, services.
+
+Nothing here takes a machine to be fast: what must happen is waited for with much patience; only that something does
+not happen is looked at for a while, and that can't fail for want of time.
+"""
+import math
+import threading
 import time
 
 import rospy
@@ -9,25 +15,25 @@ from soft_tissue_sim.srv import Step
 from std_srvs.srv import Empty
 
 NODE = "/sim_node"
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
 
 
 class SimClient:
     def __init__(self):
         self.newest = {}
-        self.by_stamp = {}
+        self.lock = threading.Lock()
+        self.by_stamp = {}  # messages are called back in threads of their own: only under the lock
         self.diagnostics = {}
         self.levels = {}
-        self.subscribers = []
-        self.listen("stats", SimStats)
-        self.listen("probe/measured_cp", PoseStamped)
-        self.listen("probe/body/measured_cf", WrenchStamped)
-        self.listen("probe/spatial/measured_cf", WrenchStamped)
-        self.listen("probe/contacts", ToolContacts)
+        self.topics = {"stats": SimStats, "probe/measured_cp": PoseStamped,
+                       "probe/body/measured_cf": WrenchStamped,
+                       "probe/spatial/measured_cf": WrenchStamped, "probe/contacts": ToolContacts}
+        self.subscribers = [self.listen(*topic) for topic in self.topics.items()]
         self.subscribers.append(rospy.Subscriber("/diagnostics", DiagnosticArray, self._diagnose))
         self.publisher = rospy.Publisher(NODE + "/probe/servo_cp", PoseStamped, queue_size=1)
         for service in ("pause_physics", "unpause_physics", "step", "reset_world"):
             rospy.wait_for_service(NODE + "/" + service, PATIENCE_S)
+        wait_until(lambda: len(self.newest) == len(self.topics), "late subscribers hear of the newest step")
         self.pause = rospy.ServiceProxy(NODE + "/pause_physics", Empty)
         self.unpause = rospy.ServiceProxy(NODE + "/unpause_physics", Empty)
         self.step = rospy.ServiceProxy(NODE + "/step", Step)
@@ -35,11 +41,12 @@ class SimClient:
 
     def listen(self, topic, message_type):
         def keep(message):
-            self.newest[topic] = message
-            self.by_stamp.setdefault(message.header.stamp.to_nsec(), {})[topic] = message
+            with self.lock:
+                self.newest[topic] = message
+                self.by_stamp.setdefault(message.header.stamp.to_nsec(), {})[topic] = message
 
-        self.subscribers.append(rospy.Subscriber(NODE + "/" + topic, message_type, keep,
-                                                 queue_size=1, tcp_nodelay=True))
+        return rospy.Subscriber(NODE + "/" + topic, message_type, keep, queue_size=1,
+                                tcp_nodelay=True)
 
     def _diagnose(self, array):
         for status in array.status:
@@ -51,6 +58,17 @@ class SimClient:
     def wait_for_commands_to_arrive(self):
         wait_until(lambda: self.publisher.get_num_connections() > 0, "the node subscribes")
 
+    def complete_step_after(self, sim_time):
+        """The messages, by topic, of a step after that time of which all came; None if there is none."""
+        with self.lock:
+            complete = [found for found in self.by_stamp.values() if len(found) == len(self.topics)
+                        and found["stats"].sim_time > sim_time]
+            return dict(complete[0]) if complete else None
+
+    def forget_messages(self):
+        with self.lock:
+            self.by_stamp.clear()
+
     def command(self, position, rotation=(0, 0, 0, 1), frame="world", stamp=None):
         message = PoseStamped()
         message.header.frame_id = frame
@@ -61,12 +79,17 @@ class SimClient:
          pose.orientation.w) = rotation
         self.publisher.publish(message)
 
-    def hold(self, position, rotation=(0, 0, 0, 1), seconds=0.3):
-        """Commands one pose again and again."""
-        end = time.time() + seconds
-        while time.time() < end:
-            self.command(position, rotation)
-            time.sleep(0.01)
+    def command_until(self, condition, what, position, **command):
+        """Commands one pose again and again until something holds."""
+        def commanded():
+            self.command(position, **command)
+            return condition()
+
+        wait_until(commanded, what)
+
+    def move_to(self, position, **command):
+        self.command_until(lambda: math.dist(self.position(), position) < 1e-9,
+                           "the probe obeys", position, **command)
 
     def position(self):
         p = self.newest["probe/measured_cp"].pose.position
@@ -75,22 +98,16 @@ class SimClient:
     def sim_time(self):
         return self.newest["stats"].sim_time
 
-    def wait_for_step(self):
-        """Waits for statistics of a step after those at hand."""
-        before = self.newest["stats"].step if "stats" in self.newest else -1
-        wait_until(lambda: "stats" in self.newest and self.newest["stats"].step > before,
-                   "another step")
-
     def count(self, status, key):
         return int(self.diagnostics.get(status, {}).get(key, 0))
 
 
-def wait_until(condition, what, patience_s=PATIENCE_S):
+def wait_until(condition, what):
     """Waits, in wall time, until something holds."""
-    end = time.time() + patience_s
+    end = time.monotonic() + PATIENCE_S
     while not condition():
-        if time.time() > end:
-            raise AssertionError("waited %.0f s in vain: %s" % (patience_s, what))
+        if time.monotonic() > end:
+            raise AssertionError("waited %.0f s in vain: %s" % (PATIENCE_S, what))
         time.sleep(0.01)
 
 

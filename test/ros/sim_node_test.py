@@ -11,6 +11,7 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
+from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
 from soft_tissue_sim.msg import TissueField
 from visualization_msgs.msg import Marker, MarkerArray
@@ -28,7 +29,6 @@ class SimNodeTest(unittest.TestCase):
     def setUpClass(cls):
         cls.client = SimClient()
         cls.client.wait_for_commands_to_arrive()
-        cls.client.wait_for_step()
 
     def setUp(self):
         self.client.unpause()
@@ -36,12 +36,14 @@ class SimNodeTest(unittest.TestCase):
 
     def pressed_messages(self, rotation):
         """Messages of one step in which the probe rests, pressed into the block."""
-        self.client.hold(ABOVE, rotation)
-        self.client.hold(PRESSED, rotation, seconds=0.7)
-        topics = {"probe/body/measured_cf", "probe/spatial/measured_cf", "probe/contacts",
-                  "probe/measured_cp"}
-        complete = [stamp for stamp, found in self.client.by_stamp.items() if topics <= set(found)]
-        return self.client.by_stamp[max(complete)]
+        client = self.client
+        client.move_to(ABOVE, rotation=rotation)
+        client.forget_messages()
+        client.move_to(PRESSED, rotation=rotation)
+        settled = client.sim_time() + 0.5
+        client.command_until(lambda: client.complete_step_after(settled), "all messages of a step",
+                             PRESSED, rotation=rotation)
+        return client.complete_step_after(settled)
 
     def test_force_pushes_the_tool_out_and_turns_with_its_axes(self):
         for rotation, out_of_tissue in (((0, 0, 0, 1), "z"), (QUARTER_TURN_ABOUT_X, "y")):
@@ -91,8 +93,7 @@ class SimNodeTest(unittest.TestCase):
 
     def test_bad_commands_are_refused_and_the_simulation_goes_on(self):
         client = self.client
-        client.hold(ABOVE)
-        wait_until(lambda: math.dist(client.position(), ABOVE) < 1e-9, "the probe obeys")
+        client.move_to(ABOVE)
         old = rospy.Time.now() - rospy.Duration(5.0)
         bad = {"rejected: not finite": dict(position=(float("nan"), 0, 0.03)),
                "rejected: quaternion not unit": dict(position=PRESSED, rotation=(0, 0, 0, 1.01)),
@@ -112,20 +113,19 @@ class SimNodeTest(unittest.TestCase):
             wait_until(refused, key)
             wait_until(lambda: client.newest["stats"].step > step, "steps go on")
             self.assertTrue(math.dist(client.position(), ABOVE) < 1e-9, key)
-        client.hold((0.0, 0.0, 0.055))
-        wait_until(lambda: abs(client.position()[2] - 0.055) < 1e-9, "good commands count again")
+        client.move_to((0.0, 0.0, 0.055))
 
     def test_watchdog_warns_and_holds_the_pose(self):
         client = self.client
-        client.hold(ABOVE)
-        wait_until(lambda: client.levels.get("probe commands") == 1, "diagnostics warn of silence")
+
+        def warns():
+            return client.levels.get("probe commands") == DiagnosticStatus.WARN
+
+        client.move_to(ABOVE)
+        client.command_until(lambda: not warns(), "diagnostics are content", ABOVE)
+        wait_until(warns, "diagnostics warn of silence")
         self.assertLess(math.dist(client.position(), ABOVE), 1e-9)
-
-        def heard():
-            client.hold(ABOVE, seconds=0.1)
-            return client.levels["probe commands"] == 0
-
-        wait_until(heard, "diagnostics are content again")
+        client.command_until(lambda: not warns(), "diagnostics are content again", ABOVE)
 
     def test_pause_step_and_reset_keep_time(self):
         client = self.client
@@ -144,16 +144,15 @@ class SimNodeTest(unittest.TestCase):
         self.assertAlmostEqual(client.step(1).time, after.time + 0.005, places=9)
 
     def test_reset_restores_rest_shape_and_initial_pose(self):
-        mesh = wait_for_mesh()
+        client = self.client
+        rest = wait_for_mesh().rest_positions
         self.pressed_messages((0, 0, 0, 1))
-        deformed = wait_for_state()
-        self.client.pause()
-        self.client.reset()
-        state = wait_for_state()
-        self.assertGreater(max(abs(a - b) for a, b in
-                               zip(deformed.positions, mesh.rest_positions)), 1e-3)
-        self.assertEqual(state.positions, mesh.rest_positions)
-        wait_until(lambda: abs(self.client.position()[2] - 0.06) < 1e-9, "the probe is back")
+        deformed = wait_for_state().positions
+        self.assertGreater(max(abs(a - b) for a, b in zip(deformed, rest)), 1e-3)
+        client.pause()
+        client.reset()
+        wait_until(lambda: wait_for_state().positions == rest, "the block is back")
+        wait_until(lambda: abs(client.position()[2] - 0.06) < 1e-9, "the probe is back")
 
     def test_markers_cost_nothing_unless_somebody_looks(self):
         client = self.client
@@ -177,12 +176,11 @@ class SimNodeTest(unittest.TestCase):
         subscriber.unregister()
 
     def test_a_stopped_subscriber_does_not_hold_up_the_physics(self):
-        listener = subprocess.Popen(
-            ["rostopic", "echo", NODE + "/block/state"], stdout=subprocess.PIPE)
+        listener = subprocess.Popen(["rostopic", "echo", NODE + "/markers"], stdout=subprocess.PIPE)
         try:
             listener.stdout.readline()  # it listens
             os.kill(listener.pid, signal.SIGSTOP)
-            self.assert_time_goes_on(lambda: time.sleep(0.1))
+            self.assert_time_goes_on(3.0)  # more than what fits into the sockets' buffers
         finally:
             os.kill(listener.pid, signal.SIGKILL)
             listener.communicate()
@@ -192,17 +190,18 @@ class SimNodeTest(unittest.TestCase):
             for _ in range(500):
                 self.client.command(ABOVE)
 
-        self.assert_time_goes_on(flood)
+        self.assert_time_goes_on(1.0, meanwhile=flood)
         wait_until(lambda: math.dist(self.client.position(), ABOVE) < 1e-9, "the flood is obeyed")
 
-    def assert_time_goes_on(self, meanwhile):
-        """Simulated time moves on, be the machine ever so busy; it would stand still if blocked."""
-        self.client.wait_for_step()
-        start, simulated = time.time(), self.client.sim_time()
-        while time.time() < start + 3.0:
+    def assert_time_goes_on(self, simulated_s, meanwhile=lambda: None):
+        """Simulated time moves on, be it ever so slowly; if something blocked it, it would stand still."""
+        goal = self.client.sim_time() + simulated_s
+
+        def reached():
             meanwhile()
-        self.client.wait_for_step()
-        self.assertGreater(self.client.sim_time() - simulated, 0.6)
+            return self.client.sim_time() > goal
+
+        wait_until(reached, "simulated time goes on")
 
     def test_a_tool_follows_a_tf_frame(self):
         broadcaster = tf2_ros.TransformBroadcaster()
