@@ -13,6 +13,9 @@ namespace
 constexpr Index kGrain = 512;
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kMaxBacktracks = 40;
+/** Full steps are lengthened where more than this share of slope times step is gained. */
+constexpr double kFallsAhead = 0.75;
+constexpr double kLongestStep = 64.0;
 /** Relative accuracy of the first linear solve; later ones follow the progress made. */
 constexpr double kFirstAccuracy = 0.01;
 /** After indefinite curvature, exact curvature is tried again when the residual has fallen to this
@@ -147,6 +150,17 @@ bool NewtonSolver::solve(double accuracy, NewtonReport& report)
   return !linear.indefinite;
 }
 
+NewtonSolver::Potential NewtonSolver::tryStep(const std::vector<EnergyTerm*>& terms,
+                                              const Points& x, double step,
+                                              std::vector<double>& seconds)
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    trial_[i] = x[i] + step * direction_[i];
+  }
+  return evaluate(terms, trial_, seconds);
+}
+
 /** Goes from x along direction_ to trial_ until the potential has fallen enough; false: nowhere. */
 bool NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Points& x,
                               Potential& potential, std::vector<double>& seconds)
@@ -156,22 +170,36 @@ bool NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Point
   {
     return false;  // no way down that rounding errors leave visible
   }
+  const Potential start = potential;
   double step = 1.0;
-  for (int k = 0; k < kMaxBacktracks; ++k, step *= 0.5)
+  for (int k = 0;; ++k, step *= 0.5)
   {
-    for (std::size_t i = 0; i < x.size(); ++i)
+    if (k == kMaxBacktracks)
     {
-      trial_[i] = x[i] + step * direction_[i];
+      return false;
     }
-    const Potential next = evaluate(terms, trial_, seconds);
-    const double rounding = 4e-15 * std::max(next.magnitude, potential.magnitude);
-    if (next.value <= potential.value + kSufficientDecrease * step * slope + rounding)
+    potential = tryStep(terms, x, step, seconds);
+    const double rounding = 4e-15 * std::max(potential.magnitude, start.magnitude);
+    if (potential.value <= start.value + kSufficientDecrease * step * slope + rounding)
     {
-      potential = next;
-      return true;
+      break;
     }
   }
-  return false;
+  // A bowl gives half of what the slope promises. Where the potential keeps that promise the way
+  // leads off a saddle, and its positive part knows no length: go on.
+  while (step >= 1.0 && step < kLongestStep &&
+         start.value - potential.value > kFallsAhead * step * -slope)
+  {
+    const Potential further = tryStep(terms, x, 2.0 * step, seconds);
+    if (!(further.value < potential.value))
+    {
+      tryStep(terms, x, step, seconds);
+      break;
+    }
+    step *= 2.0;
+    potential = further;
+  }
+  return true;
 }
 
 NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,

@@ -29,7 +29,8 @@ class LinearSolver
    * @param tolerance  stop when |b - A d| <= tolerance |b|; direct solvers ignore it
    * @param d          out, N x 3; of an indefinite A what was found until then, perhaps zero
    */
-  virtual LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) = 0;
+  virtual LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance,
+                             Points& d) = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();

@@ -69,6 +69,8 @@ class NewtonSolver
   void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
                 std::vector<double>& seconds);
   bool solve(double accuracy, NewtonReport& report);
+  Potential tryStep(const std::vector<EnergyTerm*>& terms, const Points& x, double step,
+                    std::vector<double>& seconds);
   bool searchLine(const std::vector<EnergyTerm*>& terms, const Points& x, Potential& potential,
                   std::vector<double>& seconds);
 
