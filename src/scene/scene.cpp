@@ -10,7 +10,7 @@ namespace soft_tissue
 void Scene::Impl::resetWorld()
 {
   x_ = x_rest_;
-  std::fill(v_.begin(), v_.end(), Vec3::Zero());
+  stop();
   for (std::size_t k = 0; k < tools_.size(); ++k)
   {
     Tool& tool = tools_[k];
@@ -33,6 +33,7 @@ std::uint64_t Scene::Impl::stateHash() const
   hash.addValue(report_.step);
   hash.add(x_.data(), x_.size() * sizeof(Vec3));
   hash.add(v_.data(), v_.size() * sizeof(Vec3));
+  hash.add(acceleration_.data(), acceleration_.size() * sizeof(Vec3));
   for (const Tool& tool : tools_)
   {
     hash.add(tool.X_WT.data(), 16 * sizeof(double));

@@ -40,6 +40,7 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   }
   x_rest_ = x_;
   v_.assign(x_.size(), Vec3::Zero());
+  acceleration_ = v_;
   inertia_ = std::make_unique<Inertia>(masses_);
   gravity_ = std::make_unique<Gravity>(masses_, config_.gravity_m_per_s2);
   makeSolver();

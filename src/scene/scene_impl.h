@@ -65,7 +65,7 @@ class Scene::Impl
   };
   struct SavedState
   {
-    Points x, v;
+    Points x, v, acceleration;
   };
 
   void addTissue(std::size_t index);
@@ -76,18 +76,22 @@ class Scene::Impl
   void aimTools();
   bool advance(double from, double to, int depth);
   bool minimise(double from, double to);
+  void chooseStart(double h);
+  void stop();
   void finishStep();
   void collectContacts();
 
   std::vector<Tissue> tissues_;
   std::vector<Contact> contacts_;
   Points x_, x_rest_, v_;
+  Points acceleration_;  ///< of the last step, to start the next one from; moves nothing by itself
   std::vector<double> masses_;
   std::unique_ptr<Inertia> inertia_;
   std::unique_ptr<Gravity> gravity_;
   std::unique_ptr<NewtonSolver> newton_;
   std::vector<EnergyTerm*> terms_;
   std::vector<double> term_seconds_;
+  Points extrapolated_;
   Points before_;                  ///< positions at the start of the running minimisation
   std::vector<SavedState> saved_;  ///< one per level of halving
 };

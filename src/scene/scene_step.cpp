@@ -2,6 +2,7 @@
 
 #include "scene_impl.h"
 #include "soft_tissue_sim/base/timer.h"
+#include "soft_tissue_sim/contact/sample_sums.h"
 
 namespace soft_tissue
 {
@@ -35,7 +36,7 @@ const StepReport& Scene::Impl::step()
   if (!advance(0.0, 1.0, 0))
   {
     x_ = saved_[0].x;
-    std::fill(v_.begin(), v_.end(), Vec3::Zero());
+    stop();
     report_.held = true;
   }
   report_.time_s = start_s + config_.time_step_s;
@@ -50,12 +51,14 @@ bool Scene::Impl::advance(double from, double to, int depth)
   SavedState& saved = saved_[depth];
   saved.x = x_;
   saved.v = v_;
+  saved.acceleration = acceleration_;
   if (minimise(from, to))
   {
     return true;
   }
   x_ = saved.x;
   v_ = saved.v;
+  acceleration_ = saved.acceleration;
   if (depth == kMaxHalvings)
   {
     return false;
@@ -99,8 +102,7 @@ bool Scene::Impl::minimise(double from, double to)
   before_ = x_;
   if (dynamic)
   {
-    x_ = inertia_->target();
-    newton_->restoreFixed(before_, x_);
+    chooseStart(h);
   }
   const NewtonReport newton = newton_->minimise(terms_, options, x_, term_seconds_);
   for (std::size_t k = 0; k < first_contact; ++k)
@@ -116,11 +118,38 @@ bool Scene::Impl::minimise(double from, double to)
   {
     return false;
   }
+  if (!dynamic)
+  {
+    stop();
+    return true;
+  }
   for (std::size_t i = 0; i < x_.size(); ++i)
   {
-    v_[i] = dynamic ? Vec3((x_[i] - before_[i]) / h) : Vec3(Vec3::Zero());
+    const Vec3 v = (x_[i] - before_[i]) / h;
+    acceleration_[i] = (v - v_[i]) / h;
+    v_[i] = v;
   }
   return true;
+}
+
+/** Starts the minimisation where the nodes would be if the last acceleration, or none, went on:
+ * where the potential is lower. */
+void Scene::Impl::chooseStart(double h)
+{
+  x_ = inertia_->target();
+  newton_->restoreFixed(before_, x_);
+  extrapolated_ = x_;
+  for (std::size_t i = 0; i < x_.size(); ++i)
+  {
+    extrapolated_[i] += h * h * acceleration_[i];
+  }
+  newton_->takeLower(terms_, extrapolated_, x_, term_seconds_);
+}
+
+void Scene::Impl::stop()
+{
+  std::fill(v_.begin(), v_.end(), Vec3::Zero());
+  std::fill(acceleration_.begin(), acceleration_.end(), Vec3::Zero());
 }
 
 /** What the finished step looks like: forces on tools, worst tet, deepest contact, times. */
@@ -161,24 +190,26 @@ void Scene::Impl::collectContacts()
     {
       continue;
     }
-    Tool& tool = tools_[contact.tool];
-    for (const ContactSample& sample : contact.term->samples(x_))
+    ToolState& tool = tools_[contact.tool].state;
+    const std::vector<ContactSample>& samples = contact.term->samples(x_);
+    addToolWrench(samples, tool.X_WT.translation(), tool.wrench_W.force, tool.wrench_W.torque);
+    for (const ContactSample& sample : samples)
     {
+      if (sample.area == 0.0)
+      {
+        continue;  // a clip point: part of the wrench, but no piece of surface
+      }
       ContactPoint point;
       point.position_W = sample.position;
       // d grows along the gradient for the intruder: the tool, or the tissue that has the tool
       // around it.
-      const double sign = sample.tool_sign > 0 ? -1.0 : 1.0;
-      point.normal_W = sign * sample.gradient.normalized();
-      point.force_W = sign * sample.stiffness_area * sample.depth * sample.gradient;
+      point.normal_W = -sample.tool_sign * sample.gradient.normalized();
+      point.force_W = sample.forceOnTool();
       point.depth = sample.depth;
       point.area = sample.area;
       point.tissue = static_cast<Index>(contact.tissue);
-      tool.state.wrench_W.force += point.force_W;
-      tool.state.wrench_W.torque +=
-          (point.position_W - tool.X_WT.translation()).cross(point.force_W);
       report_.max_penetration_m = std::max(report_.max_penetration_m, sample.depth);
-      tool.state.contacts.push_back(point);
+      tool.contacts.push_back(point);
       ++report_.contacts;
     }
   }

@@ -78,6 +78,16 @@ void NewtonSolver::restoreFixed(const Points& from, Points& to) const
   }
 }
 
+void NewtonSolver::takeLower(const std::vector<EnergyTerm*>& terms, Points& candidate, Points& x,
+                             std::vector<double>& seconds)
+{
+  if (candidate != x &&
+      evaluate(terms, candidate, seconds).value < evaluate(terms, x, seconds).value)
+  {
+    x.swap(candidate);
+  }
+}
+
 NewtonSolver::Potential NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms,
                                                const Points& x, std::vector<double>& seconds)
 {

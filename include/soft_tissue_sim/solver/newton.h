@@ -53,6 +53,10 @@ class NewtonSolver
   NewtonReport minimise(const std::vector<EnergyTerm*>& terms, const NewtonOptions& options,
                         Points& x, std::vector<double>& seconds);
 
+  /** x becomes the candidate if the potential is lower there; which of both is then lost. */
+  void takeLower(const std::vector<EnergyTerm*>& terms, Points& candidate, Points& x,
+                 std::vector<double>& seconds);
+
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
 
