@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <random>
+#include <vector>
+
+#include "soft_tissue_sim/energy/block_matrix.h"
+#include "support/mesh_samples.h"
+
+namespace soft_tissue::test
+{
+/** Flat view of points, 3N. */
+inline Eigen::Map<const Eigen::VectorXd> flat(const Points& points)
+{
+  return {points.data()->data(), 3 * static_cast<Eigen::Index>(points.size())};
+}
+
+inline Points randomPoints(Index count, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Points points;
+  for (Index i = 0; i < count; ++i)
+  {
+    const double x = uniform(random), y = uniform(random);
+    points.emplace_back(x, y, uniform(random));
+  }
+  return points;
+}
+
+/** Adds B B^T with a random 12 x 12 B for each tet: symmetric positive semi-definite. */
+inline void addRandomElements(const std::vector<Tet>& tets, unsigned seed, BlockMatrix& a)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const Tet& tet : tets)
+  {
+    Eigen::Matrix<double, 12, 12> b;
+    for (double& value : b.reshaped())
+    {
+      value = uniform(random);
+    }
+    const Eigen::Matrix<double, 12, 12> element = b * b.transpose();
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < 4; ++j)
+      {
+        a.add(tet[i], tet[j], element.block<3, 3>(3 * i, 3 * j));
+      }
+    }
+  }
+}
+
+/** Adds `value` to the diagonal of one node's block. */
+inline void addDiagonal(BlockMatrix& a, Index node, double value)
+{
+  a.add(node, node, value * Mat3::Identity());
+}
+
+/** A random symmetric positive definite matrix on the pattern of random tets. */
+inline BlockMatrix randomPositiveMatrix(Index rows, int tets, unsigned seed)
+{
+  const std::vector<Tet> elements = randomTets(rows, tets, seed);
+  BlockMatrix a(nodeNeighbours(rows, elements));
+  addRandomElements(elements, seed + 1, a);
+  for (Index i = 0; i < rows; ++i)
+  {
+    addDiagonal(a, i, 0.5);
+  }
+  return a;
+}
+
+}  // namespace soft_tissue::test
