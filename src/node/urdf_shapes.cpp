@@ -9,6 +9,7 @@
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/mesh/mesh_io.h"
 #include "soft_tissue_sim/node/cylinder_mesh.h"
+#include "soft_tissue_sim/node/imported_mesh.h"
 #include "soft_tissue_sim/node/resource_path.h"
 
 namespace soft_tissue_sim
@@ -63,17 +64,42 @@ PoseConfig poseConfig(const urdf::Pose& pose)
   return config;
 }
 
-MeshShape cylinderShape(const urdf::Cylinder& cylinder, const std::string& scratch,
-                        std::size_t number)
+/** Where a shape made here is written: a name of its own that still tells what it was made from. */
+struct Scratch
+{
+  std::string folder;
+  std::size_t number;
+
+  std::string save(const std::string& made_from, const soft_tissue::TriMesh& mesh) const
+  {
+    const std::string file = folder + "/" + std::to_string(number) + "_" + made_from + ".stl";
+    soft_tissue::saveStl(file, mesh);
+    return file;
+  }
+};
+
+MeshShape cylinderShape(const urdf::Cylinder& cylinder, const Scratch& scratch)
 {
   MeshShape shape;
-  shape.mesh.file = scratch + "/cylinder_" + std::to_string(number) + ".stl";
-  soft_tissue::saveStl(shape.mesh.file, cylinderMesh(cylinder.radius, cylinder.length));
+  shape.mesh.file = scratch.save("cylinder", cylinderMesh(cylinder.radius, cylinder.length));
+  return shape;
+}
+
+MeshShape meshShape(const urdf::Mesh& mesh, const std::string& folder, const Scratch& scratch)
+{
+  MeshShape shape;
+  shape.mesh.file = resolveResource(mesh.filename, folder);
+  if (needsImport(shape.mesh.file))
+  {
+    const std::string name = std::filesystem::path(shape.mesh.file).filename().string();
+    shape.mesh.file = scratch.save(name, importMesh(shape.mesh.file));
+  }
+  shape.scale = Vec3(mesh.scale.x, mesh.scale.y, mesh.scale.z);
   return shape;
 }
 
 ShapeGeometry shapeGeometry(const urdf::Geometry& geometry, const std::string& folder,
-                            const std::string& scratch, std::size_t number)
+                            const Scratch& scratch)
 {
   switch (geometry.type)
   {
@@ -84,14 +110,9 @@ ShapeGeometry shapeGeometry(const urdf::Geometry& geometry, const std::string& f
       return BoxShape{Vec3(size.x, size.y, size.z)};
     }
     case urdf::Geometry::CYLINDER:
-      return cylinderShape(static_cast<const urdf::Cylinder&>(geometry), scratch, number);
-    case urdf::Geometry::MESH: {
-      const urdf::Mesh& mesh = static_cast<const urdf::Mesh&>(geometry);
-      MeshShape shape;
-      shape.mesh.file = resolveResource(mesh.filename, folder);
-      shape.scale = Vec3(mesh.scale.x, mesh.scale.y, mesh.scale.z);
-      return shape;
-    }
+      return cylinderShape(static_cast<const urdf::Cylinder&>(geometry), scratch);
+    case urdf::Geometry::MESH:
+      return meshShape(static_cast<const urdf::Mesh&>(geometry), folder, scratch);
   }
   throw Error("geometry is not a sphere, box, cylinder or mesh");
 }
@@ -122,7 +143,7 @@ std::vector<soft_tissue::ShapeConfig> shapesFromUrdf(const UrdfShapeConfig& urdf
     }
     try
     {
-      shapes.push_back({shapeGeometry(*collision->geometry, folder, scratch, shapes.size()),
+      shapes.push_back({shapeGeometry(*collision->geometry, folder, {scratch, shapes.size()}),
                         poseConfig(collision->origin)});
     }
     catch (const Error& error)

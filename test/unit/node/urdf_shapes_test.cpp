@@ -8,6 +8,7 @@
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/mesh/mesh_io.h"
 #include "soft_tissue_sim/node/scratch_folder.h"
+#include "support/collada.h"
 
 namespace soft_tissue_sim
 {
@@ -113,6 +114,31 @@ TEST_F(UrdfShapes, meshesAreFoundBesideTheUrdfAndByFileUri)
     EXPECT_EQ(std::get<MeshShape>(found[0].geometry).mesh.file, folder_.path() + "/a.stl");
     EXPECT_EQ(std::get<MeshShape>(found[0].geometry).scale, Vec3(1.0, 2.0, 3.0));
   }
+}
+
+TEST_F(UrdfShapes, colladaMeshesBecomeClosedMeshesInMetres)
+{
+  std::ofstream(folder_.path() + "/hook.dae") << colladaTet(0.001);
+  const auto found = shapes(writeLink(collision("<mesh filename=\"hook.dae\" scale=\"1 2 3\"/>")));
+  ASSERT_EQ(found.size(), 1u);
+  const MeshShape& shape = std::get<MeshShape>(found[0].geometry);
+  EXPECT_EQ(shape.scale, Vec3(1.0, 2.0, 3.0));
+  EXPECT_TRUE(contains(shape.mesh.file, "hook.dae")) << shape.mesh.file;
+  const auto mesh = soft_tissue::loadTriMesh(shape.mesh.file, shape.mesh.metres_per_unit).mesh;
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  ASSERT_EQ(mesh.nodes.size(), 4u);  // corners shared again
+  for (const Vec3& p : mesh.nodes)
+  {
+    EXPECT_LE(p.norm(), 0.00301);
+  }
+}
+
+TEST_F(UrdfShapes, aMeshThatCantBeReadIsNamedWithItsLink)
+{
+  std::ofstream(folder_.path() + "/broken.dae") << "<COLLADA";
+  const std::string text = complaint(writeLink(collision("<mesh filename=\"broken.dae\"/>")));
+  EXPECT_TRUE(contains(text, "robot.urdf: link 'tip': ")) << text;
+  EXPECT_TRUE(contains(text, "broken.dae: can't be read: ")) << text;
 }
 
 TEST_F(UrdfShapes, aNameThatDiffersInCaseIsPointedOut)
