@@ -22,12 +22,11 @@ void tetEnergy(const TetGroups& groups, Index begin, Index end, const double* x,
 }
 
 template <typename Material>
-void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x,
-                 double* gradients)
+void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x, double* gradient)
 {
   forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
     const PackMat p = Material::stress(t.f, t.constants);
-    Pack g[12];
+    Pack g[padded(12)] = {};
     for (int i = 0; i < 3; ++i)
     {
       for (int node = 1; node < 4; ++node)
@@ -37,7 +36,19 @@ void tetGradient(const TetGroups& groups, Index begin, Index end, const double* 
       }
       g[i] = -(g[3 + i] + g[6 + i] + g[9 + i]);
     }
-    storeTransposed<12>(g, group, lane, gradients);
+    alignas(64) double rows[kLanes][padded(12)];
+    transpose<12>(g, rows);
+    const Index* nodes = groups.nodes + 32 * static_cast<long>(group) + lane;
+    for (int l = 0; l < kLanes; ++l)
+    {
+      for (int node = 0; node < 4; ++node)
+      {
+        double* at = gradient + 3 * static_cast<long>(nodes[8 * node + l]);
+        at[0] += rows[l][3 * node + 0];
+        at[1] += rows[l][3 * node + 1];
+        at[2] += rows[l][3 * node + 2];
+      }
+    }
   });
 }
 

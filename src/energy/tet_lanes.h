@@ -74,16 +74,48 @@ inline void forLanes(const TetGroups& groups, Index begin, Index end, const doub
   }
 }
 
-/** Writes value[k] of each lane to out + stride * tet + k. */
-template <int kCount>
-inline void storeTransposed(const Pack* value, Index group, int lane, double* out)
+/** The smallest multiple of the lane count that holds `count`. */
+constexpr int padded(int count)
 {
-  double* first = out + kCount * (8 * static_cast<long>(group) + lane);
-  for (int l = 0; l < kLanes; ++l)
+  return (count + kLanes - 1) / kLanes * kLanes;
+}
+
+/** Turns the square of packs at v[0] ... v[kLanes - 1]: lane j of pack i becomes lane i of pack j.
+ */
+inline void transposeSquare(Pack* v)
+{
+  for (int size = 1; size < kLanes; size *= 2)
   {
-    for (int k = 0; k < kCount; ++k)
+    // Exchange the off-diagonal quarters of each square of 2 size lanes.
+    Mask low, high;
+    for (int lane = 0; lane < kLanes; ++lane)
     {
-      first[kCount * l + k] = value[k][l];
+      const bool left = (lane & size) == 0;
+      low[lane] = left ? lane : lane - size + kLanes;
+      high[lane] = left ? lane + size : lane + kLanes;
+    }
+    for (int i = 0; i < kLanes; ++i)
+    {
+      if ((i & size) == 0)
+      {
+        const Pack a = v[i], b = v[i + size];
+        v[i] = __builtin_shuffle(a, b, low);
+        v[i + size] = __builtin_shuffle(a, b, high);
+      }
+    }
+  }
+}
+
+/** rows[lane][k] = value[k] of each lane; value holds padded(kCount) packs and is used up. */
+template <int kCount>
+inline void transpose(Pack* value, double (*rows)[padded(kCount)])
+{
+  for (int k = 0; k < kCount; k += kLanes)
+  {
+    transposeSquare(value + k);
+    for (int lane = 0; lane < kLanes; ++lane)
+    {
+      store(rows[lane] + k, value[k + lane]);
     }
   }
 }

@@ -10,31 +10,64 @@ namespace soft_tissue
 {
 namespace SOFT_TISSUE_KERNELS
 {
-inline void storeDiagonal(const PackMat& block, int node, Pack* out)
+typedef double Four __attribute__((vector_size(32)));
+typedef long long FourPlaces __attribute__((vector_size(32)));
+
+inline Four loadFour(const double* p)
 {
-  Pack* place = out + diagonalBlockOffset(node);
-  place[0] = block.m[0][0];
-  place[1] = block.m[1][0];
-  place[2] = block.m[2][0];
-  place[3] = block.m[1][1];
-  place[4] = block.m[2][1];
-  place[5] = block.m[2][2];
+  Four v;
+  std::memcpy(&v, p, sizeof(Four));
+  return v;
+}
+
+inline void addFour(double* p, Four v)
+{
+  v += loadFour(p);
+  std::memcpy(p, &v, sizeof(Four));
+}
+
+/** Adds a block of nine doubles to one of the matrix. */
+inline void addBlock(const double* block, double* to)
+{
+  addFour(to, loadFour(block));
+  addFour(to + 4, loadFour(block + 4));
+  to[8] += block[8];
+}
+
+inline void addTransposedBlock(const double* block, double* to)
+{
+  const Four a = loadFour(block), b = loadFour(block + 4);
+  addFour(to, __builtin_shuffle(a, b, FourPlaces{0, 3, 6, 1}));
+  addFour(to + 4, __builtin_shuffle(a, b, FourPlaces{4, 7, 2, 5}));
+  to[8] += block[8];
+}
+
+inline void storeBlock(const PackMat& block, Pack* out)
+{
+  for (int k = 0; k < 9; ++k)
+  {
+    out[k] = block.m[k % 3][k / 3];
+  }
 }
 
 /**
- * Stores the blocks of a tet given those of nodes 1, 2, 3: block(a, b) for 0 <= a <= b < 3 couples
- * nodes a + 1 and b + 1. Those of node 0 follow, as a common translation meets no resistance.
+ * Adds the blocks of a tet to the matrix, given those of nodes 1, 2, 3: block(a, b) for
+ * 0 <= a <= b < 3 couples nodes a + 1 and b + 1. Those of node 0 follow, as a common translation
+ * meets no resistance.
  */
 template <typename Block>
-inline void storeStiffness(const Block& blockOf, Index group, int lane, double* stiffness)
+inline void addStiffness(const Block& blockOf, const Index* positions, double* values)
 {
-  Pack out[kTetStiffnessSize];
+  constexpr int kSize = 9 * kTetBlocks;
+  constexpr int kUpper[3][3] = {{0, 7, 8}, {7, 0, 9}, {8, 9, 0}};  // blocks (1, 2), (1, 3), (2, 3)
+  Pack out[padded(kSize)];
   PackMat row[3] = {};  // row sums of the blocks of nodes 1, 2, 3: minus the blocks with node 0
   for (int a = 0; a < 3; ++a)
   {
     for (int b = a; b < 3; ++b)
     {
       const PackMat block = blockOf(a, b);
+      storeBlock(block, out + 9 * (a == b ? a + 1 : kUpper[a][b]));
       for (int i = 0; i < 3; ++i)
       {
         for (int j = 0; j < 3; ++j)
@@ -43,13 +76,8 @@ inline void storeStiffness(const Block& blockOf, Index group, int lane, double* 
           if (b != a)
           {
             row[b].m[i][j] += block.m[j][i];
-            out[offDiagonalBlockOffset(a + 1, b + 1) + 3 * j + i] = block.m[i][j];
           }
         }
-      }
-      if (a == b)
-      {
-        storeDiagonal(block, a + 1, out);
       }
     }
   }
@@ -61,12 +89,29 @@ inline void storeStiffness(const Block& blockOf, Index group, int lane, double* 
       for (int j = 0; j < 3; ++j)
       {
         corner.m[i][j] += row[a].m[i][j];
-        out[offDiagonalBlockOffset(0, a + 1) + 3 * j + i] = -row[a].m[j][i];
+        out[9 * (4 + a) + 3 * j + i] = -row[a].m[j][i];
       }
     }
   }
-  storeDiagonal(corner, 0, out);
-  storeTransposed<kTetStiffnessSize>(out, group, lane, stiffness);
+  storeBlock(corner, out);
+  for (int k = kSize; k < padded(kSize); ++k)
+  {
+    out[k] = Pack{};
+  }
+  alignas(64) double rows[kLanes][padded(kSize)];
+  transpose<kSize>(out, rows);
+  for (int lane = 0; lane < kLanes; ++lane)
+  {
+    const Index* position = positions + lane;
+    for (int block = 0; block < kTetBlocks; ++block, position += kTetLanes)
+    {
+      addBlock(rows[lane] + 9 * block, values + 9 * static_cast<long>(*position));
+    }
+    for (int block = 4; block < kTetBlocks; ++block, position += kTetLanes)
+    {
+      addTransposedBlock(rows[lane] + 9 * block, values + 9 * static_cast<long>(*position));
+    }
+  }
 }
 
 /** Rows of a times the transposed matrix of rows b. */
@@ -210,29 +255,34 @@ class PrincipalBlocks
   Pack cross_[3];
 };
 
+inline const Index* positionsOf(const Index* positions, Index group, int lane)
+{
+  return positions + kTetLanes * kTetPositions * static_cast<long>(group) + lane;
+}
+
 template <typename Material>
 void tetStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
-                  double* stiffness)
+                  const Index* positions, double* values)
 {
   forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+    const Index* place = positionsOf(positions, group, lane);
     if constexpr (Material::kOfInvariants)
     {
-      const InvariantBlocks blocks(t, Material::ofInvariants(t.f, t.constants));
-      storeStiffness(blocks, group, lane, stiffness);
+      addStiffness(InvariantBlocks(t, Material::ofInvariants(t.f, t.constants)), place, values);
     }
     else
     {
-      storeStiffness(PrincipalBlocks<Material, false>(t), group, lane, stiffness);
+      addStiffness(PrincipalBlocks<Material, false>(t), place, values);
     }
   });
 }
 
 template <typename Material>
 void tetProjectedStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
-                           double* stiffness)
+                           const Index* positions, double* values)
 {
   forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
-    storeStiffness(PrincipalBlocks<Material, true>(t), group, lane, stiffness);
+    addStiffness(PrincipalBlocks<Material, true>(t), positionsOf(positions, group, lane), values);
   });
 }
 

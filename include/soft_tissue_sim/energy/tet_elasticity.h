@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/energy/term.h"
+#include "soft_tissue_sim/energy/tet_chunks.h"
 #include "soft_tissue_sim/energy/tet_kernels.h"
 #include "soft_tissue_sim/mesh/tet_mesh.h"
 
@@ -23,7 +24,7 @@ class TetElasticity : public EnergyTerm
    * @param rest        N nodes and M tets in the rest state
    * @param parameters  M
    * @param first_node  row of the body's node 0 among all positions
-   * @throws Error naming the first tet whose rest volume isn't positive
+   * @throws Error naming a tet whose rest volume isn't positive
    */
   TetElasticity(const TetMesh& rest, MaterialModel model,
                 const std::vector<TetStiffnessParameters>& parameters, Index first_node);
@@ -39,42 +40,31 @@ class TetElasticity : public EnergyTerm
   void vonMises(const Points& x, std::vector<float>& stress);
 
  private:
-  struct BlockSource
-  {
-    Index place;      ///< in stiffness_
-    bool transposed;  ///< the tet stores the block the other way round
-  };
-  void prepareGathers(const TetMesh& rest);
-  void prepareBlocks(const BlockMatrix& hessian);
+  void addTet(const TetMesh& rest, Index tet, std::size_t lane,
+              const TetStiffnessParameters& parameters);
+  void findPositions(const BlockMatrix& hessian);
   void state(const Points& x, double* von_mises);
+  /** Calls body(begin, end) for ranges of groups, at once only for those that share no node. */
+  template <typename Body>
+  void forGroups(const Body& body) const;
 
   Index first_node_;
-  Index node_count_;
-  Index tet_count_;
-  Index group_count_;
   const TetKernels* kernels_;
-  std::vector<Tet> tets_;
+  TetChunks chunks_;
+  Index group_count_;
 
-  std::vector<Index> group_nodes_;
-  std::vector<double> group_gradients_;
-  std::vector<double> group_volumes_;
-  std::vector<double> group_constants_;
+  // Arrays over groups of lanes, see TetGroups.
+  std::vector<Index> nodes_;
+  std::vector<double> rest_gradients_;
+  std::vector<double> volumes_;
+  std::vector<double> constants_;
   TetGroups groups_;
+  std::vector<Index> positions_;  ///< blocks of the matrix last seen, see TetKernels::stiffness
+  std::size_t matrix_blocks_ = 0;
 
   std::vector<double> energies_;   ///< per lane
   std::vector<double> det_f_;      ///< per lane
   std::vector<double> von_mises_;  ///< per lane; empty until asked for
-  std::vector<double> gradients_;  ///< 12 per tet
-  std::vector<double> stiffness_;  ///< kTetStiffnessSize per tet
-
-  Adjacency corners_;  ///< per node: places in gradients_, over 3
-
-  // Where the matrix's blocks on and above the diagonal come from; made for the first matrix seen.
-  std::vector<Index> block_position_;       ///< matrix block (row <= column)
-  std::vector<Index> block_mirror_;         ///< its transpose's
-  std::vector<Index> block_sources_begin_;  ///< ranges in block_sources_
-  std::vector<BlockSource> block_sources_;
-  std::size_t matrix_blocks_ = 0;
 };
 
 }  // namespace soft_tissue

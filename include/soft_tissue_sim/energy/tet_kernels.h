@@ -13,21 +13,10 @@ constexpr Index kTetLanes = 8;
 /** Constants a law needs per tet, made from E and nu once. */
 constexpr int kMaterialConstants = 4;
 
-/** Blocks of a tet's stiffness in storage: 4 diagonal ones of 6 (lower triangle by columns), 6
- * others of 9. */
-constexpr Index kTetStiffnessSize = 4 * 6 + 6 * 9;
-
-/** Place of diagonal block a in a tet's stiffness: (0,0) (1,0) (2,0) (1,1) (2,1) (2,2). */
-constexpr Index diagonalBlockOffset(int a)
-{
-  return 6 * a;
-}
-
-/** Place of block (a, b), a < b, in a tet's stiffness: nine values by columns. */
-constexpr Index offDiagonalBlockOffset(int a, int b)
-{
-  return 24 + 9 * (a == 0 ? b - 1 : a == 1 ? b + 1 : 5);
-}
+/** Blocks of a tet's stiffness: (0,0) (1,1) (2,2) (3,3) (0,1) (0,2) (0,3) (1,2) (1,3) (2,3). */
+constexpr int kTetBlocks = 10;
+/** Places in the matrix they go to: these ten, and the transposes of the last six. */
+constexpr int kTetPositions = 16;
 
 /** Constant data of groups of tets; arrays hold all groups in a row. */
 struct TetGroups
@@ -45,13 +34,17 @@ struct TetKernels
   void (*constants)(double young_modulus, double poisson_ratio, double* constants);
   /** energies[group][8], J. */
   void (*energy)(const TetGroups&, Index begin, Index end, const double* x, double* energies);
-  /** gradients[tet][12], N. */
-  void (*gradient)(const TetGroups&, Index begin, Index end, const double* x, double* gradients);
-  /** stiffness[tet][kTetStiffnessSize], N/m: the second derivative. */
-  void (*stiffness)(const TetGroups&, Index begin, Index end, const double* x, double* stiffness);
+  /** gradient += forces of the groups' tets, flat, 3 per node, N. */
+  void (*gradient)(const TetGroups&, Index begin, Index end, const double* x, double* gradient);
+  /**
+   * Adds the second derivative, N/m, to blocks of nine values by columns.
+   * @param positions  [group][kTetPositions][8]: block numbers
+   */
+  void (*stiffness)(const TetGroups&, Index begin, Index end, const double* x,
+                    const Index* positions, double* values);
   /** The same, each tet's negative eigenvalues set to zero. */
   void (*projected_stiffness)(const TetGroups&, Index begin, Index end, const double* x,
-                              double* stiffness);
+                              const Index* positions, double* values);
   /** det_f[group][8] and, unless null, von_mises[group][8] in Pa. */
   void (*state)(const TetGroups&, Index begin, Index end, const double* x, double* det_f,
                 double* von_mises);

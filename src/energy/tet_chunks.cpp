@@ -1,0 +1,133 @@
+#include "soft_tissue_sim/energy/tet_chunks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "soft_tissue_sim/energy/tet_kernels.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** Chunks a body is cut into at most, and the groups of lanes a chunk may hold. */
+constexpr Index kChunks = 48;
+constexpr Index kFewestGroups = 4;
+constexpr Index kMostGroups = 64;
+
+/** The bits of a 21-bit number, two places apart. */
+std::uint64_t spread(std::uint64_t v)
+{
+  v = (v | v << 32) & 0x1f00000000ffffULL;
+  v = (v | v << 16) & 0x1f0000ff0000ffULL;
+  v = (v | v << 8) & 0x100f00f00f00f00fULL;
+  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
+  v = (v | v << 2) & 0x1249249249249249ULL;
+  return v;
+}
+
+/** Tets along a Morton curve through their centres. */
+std::vector<Index> nearbyOrder(const TetMesh& mesh)
+{
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const Vec3& p : mesh.nodes)
+  {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double scale = 2097151.0 / std::max((high - low).maxCoeff(), 1e-300);
+  std::vector<std::pair<std::uint64_t, Index>> keys;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+  {
+    Vec3 centre = Vec3::Zero();
+    for (const Index node : mesh.tets[t])
+    {
+      centre += 0.25 * mesh.nodes[node];
+    }
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      key |= spread(static_cast<std::uint64_t>(scale * (centre[axis] - low[axis]))) << axis;
+    }
+    keys.emplace_back(key, static_cast<Index>(t));
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Index> order;
+  for (const auto& key : keys)
+  {
+    order.push_back(key.second);
+  }
+  return order;
+}
+
+/** The smallest colour for each chunk of `size` tets that no chunk before it with a common node
+ * has. */
+std::vector<int> colourChunks(const TetMesh& mesh, const std::vector<Index>& order,
+                              std::size_t size)
+{
+  std::vector<std::vector<int>> taken(mesh.nodes.size());
+  std::vector<int> colours;
+  for (std::size_t first = 0; first < order.size(); first += size)
+  {
+    const std::size_t last = std::min(first + size, order.size());
+    std::vector<int> near;
+    for (std::size_t k = first; k < last; ++k)
+    {
+      for (const Index node : mesh.tets[order[k]])
+      {
+        near.insert(near.end(), taken[node].begin(), taken[node].end());
+      }
+    }
+    int colour = 0;
+    while (std::find(near.begin(), near.end(), colour) != near.end())
+    {
+      ++colour;
+    }
+    for (std::size_t k = first; k < last; ++k)
+    {
+      for (const Index node : mesh.tets[order[k]])
+      {
+        if (std::find(taken[node].begin(), taken[node].end(), colour) == taken[node].end())
+        {
+          taken[node].push_back(colour);
+        }
+      }
+    }
+    colours.push_back(colour);
+  }
+  return colours;
+}
+}  // namespace
+
+TetChunks chunkTets(const TetMesh& mesh)
+{
+  const std::vector<Index> order = nearbyOrder(mesh);
+  const Index group_count = (static_cast<Index>(order.size()) + kTetLanes - 1) / kTetLanes;
+  const Index groups_each = std::clamp(group_count / kChunks, kFewestGroups, kMostGroups);
+  const std::size_t size = static_cast<std::size_t>(groups_each) * kTetLanes;
+  const std::vector<int> colours = colourChunks(mesh, order, size);
+  TetChunks chunks;
+  chunks.groups.push_back(0);
+  chunks.colours.push_back(0);
+  const int colour_count =
+      colours.empty() ? 0 : 1 + *std::max_element(colours.begin(), colours.end());
+  for (int colour = 0; colour < colour_count; ++colour)
+  {
+    for (std::size_t chunk = 0; chunk < colours.size(); ++chunk)
+    {
+      if (colours[chunk] != colour)
+      {
+        continue;
+      }
+      const auto first = order.begin() + chunk * size;
+      const std::size_t last = std::min((chunk + 1) * size, order.size());
+      chunks.tets.insert(chunks.tets.end(), first, order.begin() + last);
+      chunks.tets.resize((chunks.tets.size() + kTetLanes - 1) / kTetLanes * kTetLanes, -1);
+      chunks.groups.push_back(static_cast<Index>(chunks.tets.size()) / kTetLanes);
+    }
+    chunks.colours.push_back(static_cast<Index>(chunks.groups.size()) - 1);
+  }
+  return chunks;
+}
+
+}  // namespace soft_tissue
