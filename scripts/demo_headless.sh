@@ -11,10 +11,11 @@ wait_for()
   done
 }
 
-# live_on_virtual_display FOLDER SECONDS  leaves rviz.png, live_stats.csv and logs in FOLDER
+# live_on_virtual_display FOLDER SECONDS LAUNCH_ARGUMENTS...  leaves rviz.png, live_stats.csv and logs in FOLDER
 live_on_virtual_display()
 {
   local out=$1 seconds=$2 logs=$1/logs node=/sim_node
+  shift 2
   mkdir -p "$logs"
   # A master and a display of our own: those of others stay as they are.
   local port
@@ -25,7 +26,7 @@ live_on_virtual_display()
   wait_for 20 test -s "$logs/display" || fail "no virtual display: see $logs/xvfb.log"
   export DISPLAY=:$(< "$logs/display")
 
-  in_background "$logs/launch.log" roslaunch -p "$port" soft_tissue_sim demo.launch rviz:=true
+  in_background "$logs/launch.log" roslaunch -p "$port" soft_tissue_sim demo.launch "$@"
   wait_for 60 grep -q "simulating" "$logs/launch.log" || fail "the node did not start: see $logs/launch.log"
   in_background "$out/live_stats.csv" rostopic echo -p "$node/stats"
   wait_for 60 subscribed_by rviz "$node/markers" || fail "rviz did not come up: see $logs/launch.log"
@@ -35,7 +36,7 @@ live_on_virtual_display()
     "$node/stats" "$node/probe/servo_cp" "$node/probe/measured_cp" "$node/probe/body/measured_cf"
   wait $! || fail "recording failed: see $logs/record.log"
   # rviz draws a little late: let it catch up with a world that stands still.
-  rosrun soft_tissue_sim pause_in_contact.py || fail "the probe never pressed the tissue: see $logs/launch.log"
+  rosrun soft_tissue_sim pause_in_contact.py --force_n 0.4 --patience_s 120 || fail "the probe never pressed the tissue: see $logs/launch.log"
   sleep 2
   import -window root "$out/rviz.png"
   mogrify -trim +repage "$out/rviz.png"

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Palpates a lobe: commands a probe, or writes the commands to a bag, in a raster of presses, each from above, held,
-and taken back.
+"""Palpates a lobe: commands a probe, or writes the commands to a bag, in a raster of presses.
 
-Every press goes the same depth below the height at which the round tip first touches the undeformed
-surface, so that differences in force are differences in the tissue.
+Every press goes along the local normal of the undeformed surface, to the same depth below the place
+where the round tip first touches, is held there and taken back: differences in force are then
+differences in the tissue. The poses are those of the tip, its z axis pointing back along the probe.
 """
 import argparse
 import itertools
@@ -31,16 +31,15 @@ def parse_arguments():
     parser.add_argument("--topic", default="/sim_node/probe/servo_cp", help="topic of the poses")
     parser.add_argument("--grid", type=int, nargs=2, default=(9, 7), metavar=("NX", "NY"),
                         help="presses along x and y")
-    parser.add_argument("--region", type=float, nargs=4, default=(-0.032, 0.032, -0.024, 0.024),
+    parser.add_argument("--region", type=float, nargs=4, default=(-0.030, 0.018, -0.015, 0.021),
                         metavar=("X0", "X1", "Y0", "Y1"), help="where to press, m")
-    parser.add_argument("--depth_m", type=float, default=0.004, help="depth of a press")
-    parser.add_argument("--radius_m", type=float, default=0.004, help="radius of the round tip")
-    parser.add_argument("--tip_below_origin_m", type=float, default=0.014,
-                        help="how far the tip's lowest point lies below the tool frame")
-    parser.add_argument("--clearance_m", type=float, default=0.002,
+    parser.add_argument("--depth_m", type=float, default=0.005, help="depth of a press")
+    parser.add_argument("--radius_m", type=float, default=0.005, help="radius of the round tip")
+    parser.add_argument("--clearance_m", type=float, default=0.001,
                         help="height above the surface from which a press starts")
-    parser.add_argument("--press_s", type=float, default=0.3, help="time of a press down or up")
+    parser.add_argument("--press_s", type=float, default=0.2, help="time of a press down")
     parser.add_argument("--hold_s", type=float, default=0.1, help="time at full depth")
+    parser.add_argument("--release_s", type=float, default=0.1, help="time of the way back up")
     parser.add_argument("--travel_m_per_s", type=float, default=0.1, help="speed between presses")
     parser.add_argument("--rate_hz", type=float, default=200.0, help="poses a second")
     return parser.parse_args(rospy.myargv()[1:])
@@ -77,7 +76,10 @@ def surface_triangles(tets):
 def height(nodes, triangles, xy):
     """Highest z of the surface above or below each of some points (P x 2); -inf beside it."""
     found = np.full(len(xy), -np.inf)
-    for a, b, c in nodes[triangles]:
+    corners = nodes[triangles]
+    near = np.all((corners[:, :, :2].min(axis=1) <= xy.max(axis=0)) &
+                  (corners[:, :, :2].max(axis=1) >= xy.min(axis=0)), axis=1)
+    for a, b, c in corners[near]:
         ab, ac = b - a, c - a
         area = ab[0] * ac[1] - ab[1] * ac[0]
         if abs(area) < 1e-18:
@@ -91,15 +93,56 @@ def height(nodes, triangles, xy):
     return found
 
 
-def touch_height(nodes, triangles, x, y, radius):
-    """Height of the lowest point of a ball, coming down at (x, y), when it first touches the surface."""
+def disc(radius):
+    """Points (P x 2) spread over a disc around the origin."""
     offsets = np.linspace(-radius, radius, 17)
-    dx, dy = (grid.ravel() for grid in np.meshgrid(offsets, offsets))
-    squared = dx**2 + dy**2
-    under = squared <= radius**2
-    dx, dy, squared = dx[under], dy[under], squared[under]
-    heights = height(nodes, triangles, np.column_stack((x + dx, y + dy)))
-    return np.max(heights - (radius - np.sqrt(radius**2 - squared)))
+    points = np.array(list(itertools.product(offsets, offsets)))
+    return points[np.sum(points**2, axis=1) <= radius**2]
+
+
+def touch_height(nodes, triangles, xy, radius):
+    """Height of the lowest point of a ball, coming down at (x, y), when it first touches the surface."""
+    under = disc(radius)
+    heights = height(nodes, triangles, xy + under)
+    return np.max(heights - (radius - np.sqrt(radius**2 - np.sum(under**2, axis=1))))
+
+
+def surface_point(nodes, triangles, xy, radius):
+    """The surface's highest point at (x, y), and the normal of the plane that fits it best around."""
+    z = height(nodes, triangles, xy[np.newaxis])[0]
+    if not np.isfinite(z):
+        raise ValueError("there is no surface at x = %g m, y = %g m" % tuple(xy))
+    around = disc(radius)
+    heights = height(nodes, triangles, xy + around)
+    hit = np.isfinite(heights)
+    table = np.column_stack((around[hit], np.ones(np.count_nonzero(hit))))
+    slope_x, slope_y, _ = np.linalg.lstsq(table, heights[hit], rcond=None)[0]
+    normal = np.array([-slope_x, -slope_y, 1.0])
+    return np.append(xy, z), normal / np.linalg.norm(normal)
+
+
+def turn_to(normal):
+    """Quaternion (x, y, z, w) of the shortest turn of the z axis to a normal that points upwards."""
+    turn = np.array([-normal[1], normal[0], 0.0, 1.0 + normal[2]])
+    return turn / np.linalg.norm(turn)
+
+
+def matrix(turn):
+    """Rotation matrix of a unit quaternion."""
+    x, y, z, w = turn
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def touch(nodes, triangles, xy, radius):
+    """Position of a round tip that comes along the normal at (x, y) when it first touches, and its turn."""
+    point, normal = surface_point(nodes, triangles, xy, 2.0 * radius)
+    turn = turn_to(normal)
+    axes = matrix(turn)  # columns: the tip's axes
+    place = point @ axes
+    place[2] = touch_height(nodes @ axes, triangles, place[:2], radius)
+    return axes @ place, turn
 
 
 def raster(region, grid):
@@ -108,30 +151,37 @@ def raster(region, grid):
     ys = np.linspace(region[2], region[3], grid[1])
     for row, y in enumerate(ys):
         for x in xs if row % 2 == 0 else xs[::-1]:
-            yield float(x), float(y)
+            yield np.array([x, y])
 
 
 def palpation_path(arguments, nodes, triangles):
-    """Way points (time, x, y, z of the tip's lowest point) to be joined by straight lines."""
-    top = nodes[:, 2].max() + 0.005
+    """Way points (time, position, quaternion) of the tip, to be joined by straight lines.
+
+    It begins and ends high above the first press, so that it can be repeated.
+    """
     way = []
-    time = 0.0
-    for x, y in raster(arguments.region, arguments.grid):
-        touch = touch_height(nodes, triangles, x, y, arguments.radius_m)
-        if not np.isfinite(touch):
-            raise ValueError("there is no surface at x = %g m, y = %g m" % (x, y))
-        ready = touch + arguments.clearance_m
+
+    def move(position, turn, duration=0.0):
         if way:
-            _, last_x, last_y, last_z = way[-1]
-            time += max(np.hypot(x - last_x, y - last_y) / arguments.travel_m_per_s, 0.01)
-        way.append((time, x, y, top))
-        for z, duration in ((ready, (top - ready) / arguments.travel_m_per_s),
-                            (touch - arguments.depth_m, arguments.press_s),
-                            (touch - arguments.depth_m, arguments.hold_s),
-                            (ready, arguments.press_s),
-                            (top, (top - ready) / arguments.travel_m_per_s)):
-            time += max(duration, 0.01)
-            way.append((time, x, y, z))
+            distance = np.linalg.norm(position - way[-1][1:4])
+            duration = max(duration, distance / arguments.travel_m_per_s, 0.01)
+        way.append(np.concatenate(([way[-1][0] + duration if way else 0.0], position, turn)))
+
+    def lifted(position):
+        return np.append(position[:2], nodes[:, 2].max() + 0.01)
+
+    for xy in raster(arguments.region, arguments.grid):
+        tip, turn = touch(nodes, triangles, xy, arguments.radius_m)
+        outwards = matrix(turn)[:, 2]
+        ready, deep = tip + arguments.clearance_m * outwards, tip - arguments.depth_m * outwards
+        if not way:
+            move(lifted(ready), turn)
+        move(ready, turn)
+        move(deep, turn, arguments.press_s)
+        move(deep, turn, arguments.hold_s)
+        move(ready, turn, arguments.release_s)
+    move(lifted(way[-1][1:4]), way[-1][4:])
+    move(way[0][1:4], way[0][4:])
     return np.array(way)
 
 
@@ -141,11 +191,12 @@ def poses(arguments, way):
         message = PoseStamped()
         message.header.seq = number
         message.header.frame_id = "world"
-        position = message.pose.position
-        position.x, position.y, position.z = (np.interp(time, way[:, 0], way[:, axis])
-                                              for axis in (1, 2, 3))
-        position.z += arguments.tip_below_origin_m
-        message.pose.orientation.w = 1.0
+        at = np.array([np.interp(time, way[:, 0], column) for column in way.T[1:]])
+        turn = at[3:] / np.linalg.norm(at[3:])
+        for target, axes, values in ((message.pose.position, "xyz", at[:3]),
+                                     (message.pose.orientation, "xyzw", turn)):
+            for axis, value in zip(axes, values):
+                setattr(target, axis, float(value))
         yield time, message
 
 
