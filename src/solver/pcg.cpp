@@ -20,28 +20,25 @@ class Pcg : public LinearSolver
     const Index n = a.rows();
     invertDiagonal(a);
     residual_ = b;
-    preconditioned_.resize(n);
     direction_.resize(n);
     image_.resize(n);
     d.assign(n, Vec3::Zero());
-    const double enough = tolerance * tolerance * squaredNorm(b);
-    double rz = parallelSum(n, kGrain, [&](Index begin, Index end) {
-      double sum = 0.0;
+    Sums now = parallelSum(n, kGrain, [&](Index begin, Index end) {
+      Sums sums;
       for (Index i = begin; i < end; ++i)
       {
         direction_[i] = inverse_diagonal_[i] * residual_[i];
-        sum += residual_[i].dot(direction_[i]);
+        sums.add(residual_[i], direction_[i]);
       }
-      return sum;
+      return sums;
     });
-    if (rz == 0.0)
-    {
-      return {};
-    }
+    const double enough = tolerance * tolerance * now.rr;
     const BlockRows rows = {a.offsets().data(), a.columns().data(), a.values().data()};
     const int most = 10 * static_cast<int>(n) + 100;
-    for (int iteration = 1; iteration <= most; ++iteration)
+    int iteration = 0;
+    while (now.rr > enough && iteration < most)
     {
+      ++iteration;
       const double curvature = parallelSum(n, kGrain, [&](Index begin, Index end) {
         product_(rows, begin, end, direction_.data()->data(), image_.data()->data());
         double sum = 0.0;
@@ -55,54 +52,48 @@ class Pcg : public LinearSolver
       {
         return {iteration, true};
       }
-      const double step = rz / curvature;
-      const double squared = parallelSum(n, kGrain, [&](Index begin, Index end) {
-        double sum = 0.0;
+      const double step = now.rz / curvature;
+      const Sums next = parallelSum(n, kGrain, [&](Index begin, Index end) {
+        Sums sums;
         for (Index i = begin; i < end; ++i)
         {
           d[i] += step * direction_[i];
           residual_[i] -= step * image_[i];
-          sum += residual_[i].squaredNorm();
+          image_[i] = inverse_diagonal_[i] * residual_[i];
+          sums.add(residual_[i], image_[i]);
         }
-        return sum;
+        return sums;
       });
-      if (squared <= enough)
-      {
-        return {iteration, false};
-      }
-      const double rz_next = parallelSum(n, kGrain, [&](Index begin, Index end) {
-        double sum = 0.0;
-        for (Index i = begin; i < end; ++i)
-        {
-          preconditioned_[i] = inverse_diagonal_[i] * residual_[i];
-          sum += residual_[i].dot(preconditioned_[i]);
-        }
-        return sum;
-      });
-      const double ratio = rz_next / rz;
-      rz = rz_next;
+      const double ratio = next.rz / now.rz;
+      now = next;
       parallelFor(n, kGrain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i)
         {
-          direction_[i] = preconditioned_[i] + ratio * direction_[i];
+          direction_[i] = image_[i] + ratio * direction_[i];
         }
       });
     }
-    return {most, false};
+    return {iteration, false};
   }
 
  private:
-  static double squaredNorm(const Points& v)
+  /** |r|^2 and r . z, z being the preconditioned residual. */
+  struct Sums
   {
-    return parallelSum(static_cast<Index>(v.size()), kGrain, [&](Index begin, Index end) {
-      double sum = 0.0;
-      for (Index i = begin; i < end; ++i)
-      {
-        sum += v[i].squaredNorm();
-      }
-      return sum;
-    });
-  }
+    double rr = 0.0;
+    double rz = 0.0;
+
+    void add(const Vec3& r, const Vec3& z)
+    {
+      rr += r.squaredNorm();
+      rz += r.dot(z);
+    }
+    void operator+=(const Sums& other)
+    {
+      rr += other.rr;
+      rz += other.rz;
+    }
+  };
 
   void invertDiagonal(const BlockMatrix& a)
   {
@@ -120,7 +111,7 @@ class Pcg : public LinearSolver
 
   BlockProduct product_;
   std::vector<Mat3> inverse_diagonal_;
-  Points residual_, preconditioned_, direction_, image_;
+  Points residual_, direction_, image_;
 };
 }  // namespace
 

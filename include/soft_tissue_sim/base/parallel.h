@@ -43,22 +43,24 @@ void parallelFor(Index count, Index grain, const Body& body)
 }
 
 /**
- * Sum of body(begin, end) over such pieces, added in their order: the same bits for any thread
- * count. At most 256 pieces: the grain is enlarged for longer ranges.
+ * Sum of body(begin, end) over such pieces, numbers or what `{}` makes zero and += adds, in their
+ * order: the same bits for any thread count. At most 256 pieces: the grain is enlarged for longer
+ * ranges.
  */
 template <typename Body>
-double parallelSum(Index count, Index grain, const Body& body)
+auto parallelSum(Index count, Index grain, const Body& body) -> decltype(body(Index{}, Index{}))
 {
+  using Sum = decltype(body(Index{}, Index{}));
   if (detail::chunkCount(count, grain) > detail::kMaxSumChunks)
   {
     grain = detail::chunkCount(count, detail::kMaxSumChunks);
   }
-  std::array<double, detail::kMaxSumChunks> partial;
-  double* sums = partial.data();
+  std::array<Sum, detail::kMaxSumChunks> partial;
+  Sum* sums = partial.data();
   parallelFor(count, grain, [&body, sums, grain](Index begin, Index end) {
     sums[begin / grain] = body(begin, end);
   });
-  double sum = 0.0;
+  Sum sum{};
   for (Index chunk = 0; chunk < detail::chunkCount(count, grain); ++chunk)
   {
     sum += sums[chunk];
