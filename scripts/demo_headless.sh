@@ -36,7 +36,7 @@ live_on_virtual_display()
     "$node/stats" "$node/probe/servo_cp" "$node/probe/measured_cp" "$node/probe/body/measured_cf"
   wait $! || fail "recording failed: see $logs/record.log"
   # rviz draws a little late: let it catch up with a world that stands still.
-  rosrun soft_tissue_sim pause_in_contact.py --force_n 0.4 --patience_s 120 || fail "the probe never pressed the tissue: see $logs/launch.log"
+  rosrun soft_tissue_sim pause_in_contact.py --force_n 0.35 --patience_s 120 || fail "the probe never pressed the tissue: see $logs/launch.log"
   sleep 2
   import -window root "$out/rviz.png"
   mogrify -trim +repage "$out/rviz.png"

@@ -20,7 +20,7 @@ import matplotlib.tri
 import numpy as np
 
 TOUCH_N = 1.0e-3  # below that the probe counts as free
-SAME_PLACE_M = 1.0e-4
+SAME_PLACE_M = 1.0e-3  # a step may pass between two first touches
 Press = collections.namedtuple("Press", "x_m y_m peak_n depth_m force_n")
 
 

@@ -143,11 +143,11 @@ class PlotPalpation(unittest.TestCase):
 
     def test_presses_at_other_places_are_not_compared(self):
         presses = [self.press(0.0, 1.0), self.press(0.5, 1.0)]
-        plot_palpation.need_same_places(presses, [self.press(0.0, 2.0), self.press(0.5, 3.0)])
+        plot_palpation.need_same_places(presses, [self.press(0.0, 2.0), self.press(0.5005, 3.0)])
         with self.assertRaises(ValueError):
             plot_palpation.need_same_places(presses, presses[:1])
         with self.assertRaises(ValueError):
-            plot_palpation.need_same_places(presses, [self.press(0.0, 2.0), self.press(0.51, 3.0)])
+            plot_palpation.need_same_places(presses, [self.press(0.0, 2.0), self.press(0.502, 3.0)])
 
     def test_a_probe_that_never_touches_is_an_error(self):
         with self.assertRaises(ValueError):
