@@ -26,7 +26,7 @@ live_on_virtual_display()
   wait_for 20 test -s "$logs/display" || fail "no virtual display: see $logs/xvfb.log"
   export DISPLAY=:$(< "$logs/display")
 
-  in_background "$logs/launch.log" roslaunch -p "$port" soft_tissue_sim demo.launch "$@"
+  in_background "$logs/launch.log" roslaunch -p "$port" soft_tissue_sim demo.launch rviz_args:=--fullscreen "$@"
   wait_for 60 grep -q "simulating" "$logs/launch.log" || fail "the node did not start: see $logs/launch.log"
   in_background "$out/live_stats.csv" rostopic echo -p "$node/stats"
   wait_for 60 subscribed_by rviz "$node/markers" || fail "rviz did not come up: see $logs/launch.log"

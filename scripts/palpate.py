@@ -201,12 +201,12 @@ def poses(arguments, way):
 
 
 def write_bag(arguments, way):
-    start = 1.0  # stamps of zero would mean "now"
+    """Writes the commands without stamps, which means: now. So the bag can be played live, over and over."""
+    start = 1.0  # a bag holds no time of zero
     count = 0
     with rosbag.Bag(arguments.out, "w", compression=rosbag.Compression.LZ4) as bag:
         for time, message in poses(arguments, way):
-            message.header.stamp = rospy.Time.from_sec(start + time)
-            bag.write(arguments.topic, message, message.header.stamp)
+            bag.write(arguments.topic, message, rospy.Time.from_sec(start + time))
             count += 1
     return count
 
