@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <string>
 
@@ -116,18 +117,23 @@ class CantileverBends : public ::testing::TestWithParam<MaterialModel>
  private:
   static void check(const Published& row, const BeamTip& rod, const BeamTip* tips)
   {
-    checkOne(row, "w/L", rod.down, row.down, tips[kMeshes - 2].down, tips[kMeshes - 1].down, 1.0);
+    checkOne(row, "w/L", rod.down, row.down, {tips[0].down, tips[1].down, tips[2].down}, 1.0);
     // Towards the clamp the tip goes by the square of the slope: twice the relative error.
-    checkOne(row, "u/L", rod.along, row.along, tips[kMeshes - 2].along, tips[kMeshes - 1].along,
-             2.0);
+    checkOne(row, "u/L", rod.along, row.along, {tips[0].along, tips[1].along, tips[2].along}, 2.0);
   }
 
   static void checkOne(const Published& row, const char* what, double rod, double elastica,
-                       double coarse, double fine, double power)
+                       const std::array<double, kMeshes>& on, double power)
   {
     const std::string load = (row.load.tip > 0.0 ? "alpha " : "beta ") +
                              testing::PrintToString(row.load.tip + row.load.weight);
-    const double order = std::log2((rod - coarse) / (rod - fine));
+    const double coarse = on[1], fine = on[2];
+    // A small load leaves the rod exact enough to be the reference; under a large one the rod is
+    // off by as much as the finest mesh, and the meshes are compared with each other.
+    const double strain = (row.load.tip + 0.5 * row.load.weight) * (1.0 - row.along) /
+                          (2.0 * Cantilever::kSlender);  // at the clamp's surface
+    const double order = strain < 0.03 ? std::log2((rod - coarse) / (rod - fine))
+                                       : std::log2((coarse - on[0]) / (fine - coarse));
     const double limit = fine + (fine - coarse) / 3.0;
     std::printf("  %s %s: order %.2f, limit %.5f: elastica %+.2f %%, rod %+.2f %%\n", load.c_str(),
                 what, order, limit, 100.0 * (limit / elastica - 1.0), 100.0 * (limit / rod - 1.0));
@@ -135,7 +141,7 @@ class CantileverBends : public ::testing::TestWithParam<MaterialModel>
     EXPECT_LT(order, 2.6) << load << " " << what;
     EXPECT_LT(fine, rod) << load << " " << what << ": softer than the beam itself";
     EXPECT_NEAR(fine, rod, power * kTooStiff / (kFinest * kFinest) * rod) << load << " " << what;
-    EXPECT_NEAR(limit, rod, 0.005 * rod) << load << " " << what;
+    EXPECT_NEAR(limit, rod, (0.004 + strain * strain) * rod) << load << " " << what;
     EXPECT_NEAR(limit, elastica, 0.01 * elastica) << load << " " << what;
   }
 };
