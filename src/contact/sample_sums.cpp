@@ -61,7 +61,7 @@ void addContactHessian(const std::vector<ContactSample>& samples, BlockMatrix& h
       for (int j = 0; j < s.count; ++j)
       {
         const double scale = s.coefficient[i] * s.coefficient[j];
-        if (scale != 0.0)
+        if (scale != 0.0 && s.node[i] <= s.node[j])
         {
           addScaledBlock(hessian, s.node[i], s.node[j], scale, gg);
         }

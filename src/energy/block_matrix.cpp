@@ -4,6 +4,7 @@
 #include <string>
 
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/base/parallel.h"
 
 namespace soft_tissue
 {
@@ -24,11 +25,40 @@ BlockMatrix::BlockMatrix(const Adjacency& neighbours)
     offsets_.push_back(static_cast<Index>(columns_.size()));
   }
   values_.assign(9 * columns_.size() + 3, 0.0);
+  // Rows ascend, so the blocks above the diagonal of a column come in the order of their rows: the
+  // order in which that column's row has its blocks below the diagonal.
+  mirror_.resize(columns_.size());
+  std::vector<Index> next(offsets_.begin(), offsets_.end() - 1);
+  for (Index row = 0; row < rows; ++row)
+  {
+    for (Index k = diagonal_[row]; k < offsets_[row + 1]; ++k)
+    {
+      mirror_[next[columns_[k]]++] = k;
+    }
+  }
 }
 
 void BlockMatrix::setZero()
 {
   std::fill(values_.begin(), values_.end(), 0.0);
+}
+
+void BlockMatrix::mirrorUpper()
+{
+  parallelFor(rows(), 64, [this](Index begin, Index end) {
+    for (Index row = begin; row < end; ++row)
+    {
+      for (Index k = offsets_[row]; k < diagonal_[row]; ++k)
+      {
+        const double* from = block(mirror_[k]);
+        double* to = block(k);
+        for (int i = 0; i < 9; ++i)
+        {
+          to[i] = from[3 * (i % 3) + i / 3];
+        }
+      }
+    }
+  });
 }
 
 Index BlockMatrix::find(Index row, Index column) const

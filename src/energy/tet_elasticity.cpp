@@ -15,6 +15,14 @@ constexpr Index kGroupGrain = 32;  // groups of eight tets per parallel piece
 /** Nodes of the blocks of a tet, in the order of TetKernels::stiffness. */
 constexpr int kBlockRow[kTetBlocks] = {0, 1, 2, 3, 0, 0, 0, 1, 1, 2};
 constexpr int kBlockColumn[kTetBlocks] = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};
+
+/** The same four nodes by number: F is that of any order, and blocks are then above the diagonal.
+ */
+Tet ascending(Tet tet)
+{
+  std::sort(tet.begin(), tet.end());
+  return tet;
+}
 }  // namespace
 
 TetElasticity::TetElasticity(const TetMesh& rest, MaterialModel model,
@@ -38,7 +46,8 @@ TetElasticity::TetElasticity(const TetMesh& rest, MaterialModel model,
       addTet(rest, tet, lane, parameters[tet]);
     }
     // Lanes left over weigh nothing, and read and write where their group does anyway.
-    const Tet& nodes = rest.tets[tet >= 0 ? tet : chunks_.tets[lane / kTetLanes * kTetLanes]];
+    const Tet nodes =
+        ascending(rest.tets[tet >= 0 ? tet : chunks_.tets[lane / kTetLanes * kTetLanes]]);
     for (int k = 0; k < 4; ++k)
     {
       nodes_[8 * (4 * (lane / kTetLanes) + k) + lane % kTetLanes] = first_node_ + nodes[k];
@@ -52,13 +61,15 @@ TetElasticity::TetElasticity(const TetMesh& rest, MaterialModel model,
 void TetElasticity::addTet(const TetMesh& rest, Index t, std::size_t lane,
                            const TetStiffnessParameters& parameters)
 {
-  const Tet& tet = rest.tets[t];
+  const Tet tet = ascending(rest.tets[t]);
   Mat3 edges;
   for (int k = 0; k < 3; ++k)
   {
     edges.col(k) = rest.nodes[tet[k + 1]] - rest.nodes[tet[0]];
   }
-  const double volume = edges.determinant() / 6.0;
+  const double volume = signedVolume6(rest.nodes[rest.tets[t][0]], rest.nodes[rest.tets[t][1]],
+                                      rest.nodes[rest.tets[t][2]], rest.nodes[rest.tets[t][3]]) /
+                        6.0;
   const Mat3 gradients = edges.inverse();
   if (!(volume > 0.0) || !gradients.allFinite())
   {
@@ -81,19 +92,15 @@ void TetElasticity::addTet(const TetMesh& rest, Index t, std::size_t lane,
 
 void TetElasticity::findPositions(const BlockMatrix& hessian)
 {
-  positions_.resize(kTetPositions * chunks_.tets.size());
+  positions_.resize(kTetBlocks * chunks_.tets.size());
   for (std::size_t lane = 0; lane < chunks_.tets.size(); ++lane)
   {
     const std::size_t group = lane / kTetLanes, place = lane % kTetLanes;
     const Index* nodes = nodes_.data() + 32 * group + place;
-    Index* position = positions_.data() + kTetPositions * kTetLanes * group + place;
+    Index* position = positions_.data() + kTetBlocks * kTetLanes * group + place;
     for (int block = 0; block < kTetBlocks; ++block, position += kTetLanes)
     {
       *position = hessian.find(nodes[8 * kBlockRow[block]], nodes[8 * kBlockColumn[block]]);
-    }
-    for (int block = 4; block < kTetBlocks; ++block, position += kTetLanes)
-    {
-      *position = hessian.find(nodes[8 * kBlockColumn[block]], nodes[8 * kBlockRow[block]]);
     }
   }
   if (*std::min_element(positions_.begin(), positions_.end()) < 0)

@@ -11,7 +11,6 @@ namespace soft_tissue
 namespace SOFT_TISSUE_KERNELS
 {
 typedef double Four __attribute__((vector_size(32)));
-typedef long long FourPlaces __attribute__((vector_size(32)));
 
 inline Four loadFour(const double* p)
 {
@@ -31,14 +30,6 @@ inline void addBlock(const double* block, double* to)
 {
   addFour(to, loadFour(block));
   addFour(to + 4, loadFour(block + 4));
-  to[8] += block[8];
-}
-
-inline void addTransposedBlock(const double* block, double* to)
-{
-  const Four a = loadFour(block), b = loadFour(block + 4);
-  addFour(to, __builtin_shuffle(a, b, FourPlaces{0, 3, 6, 1}));
-  addFour(to + 4, __builtin_shuffle(a, b, FourPlaces{4, 7, 2, 5}));
   to[8] += block[8];
 }
 
@@ -106,10 +97,6 @@ inline void addStiffness(const Block& blockOf, const Index* positions, double* v
     for (int block = 0; block < kTetBlocks; ++block, position += kTetLanes)
     {
       addBlock(rows[lane] + 9 * block, values + 9 * static_cast<long>(*position));
-    }
-    for (int block = 4; block < kTetBlocks; ++block, position += kTetLanes)
-    {
-      addTransposedBlock(rows[lane] + 9 * block, values + 9 * static_cast<long>(*position));
     }
   }
 }
@@ -257,7 +244,7 @@ class PrincipalBlocks
 
 inline const Index* positionsOf(const Index* positions, Index group, int lane)
 {
-  return positions + kTetLanes * kTetPositions * static_cast<long>(group) + lane;
+  return positions + kTetLanes * kTetBlocks * static_cast<long>(group) + lane;
 }
 
 template <typename Material>

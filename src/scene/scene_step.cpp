@@ -195,10 +195,6 @@ void Scene::Impl::collectContacts()
     addToolWrench(samples, tool.X_WT.translation(), tool.wrench_W.force, tool.wrench_W.torque);
     for (const ContactSample& sample : samples)
     {
-      if (sample.area == 0.0)
-      {
-        continue;  // a clip point: part of the wrench, but no piece of surface
-      }
       ContactPoint point;
       point.position_W = sample.position;
       // d grows along the gradient for the intruder: the tool, or the tissue that has the tool

@@ -80,6 +80,7 @@ inline Eigen::MatrixXd hessianOf(EnergyTerm& term, const Points& x, const Adjace
 {
   BlockMatrix hessian(neighbours);
   term.addHessian(x, curvature, hessian);
+  hessian.mirrorUpper();
   return dense(hessian);
 }
 

@@ -14,7 +14,8 @@ double contactEnergy(const std::vector<ContactSample>& samples);
 void addContactGradient(const std::vector<ContactSample>& samples, Points& gradient);
 
 /**
- * hessian += its Gauss-Newton part kappa area c_i c_j g g^T, positive semi-definite.
+ * hessian += its Gauss-Newton part kappa area c_i c_j g g^T, positive semi-definite; blocks with
+ * row <= column.
  *
  * @throws Error if a pair of nodes is outside the matrix's pattern
  */

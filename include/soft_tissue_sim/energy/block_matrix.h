@@ -20,6 +20,9 @@ class BlockMatrix
   Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
   void setZero();
 
+  /** Blocks below the diagonal become the transposes of those above. */
+  void mirrorUpper();
+
   /** Position of block (row, column) in blocks(), or -1 outside the pattern. O(log row length). */
   Index find(Index row, Index column) const;
   Index diagonal(Index row) const { return diagonal_[row]; }
@@ -43,6 +46,7 @@ class BlockMatrix
   std::vector<Index> offsets_;   ///< rows + 1
   std::vector<Index> columns_;   ///< ascending within a row
   std::vector<Index> diagonal_;  ///< rows
+  std::vector<Index> mirror_;    ///< per block on or below the diagonal: its transpose's position
   std::vector<double> values_;   ///< 9 per block, and 3 more so that wide loads stay inside
 };
 

@@ -15,15 +15,13 @@ constexpr int kMaterialConstants = 4;
 
 /** Blocks of a tet's stiffness: (0,0) (1,1) (2,2) (3,3) (0,1) (0,2) (0,3) (1,2) (1,3) (2,3). */
 constexpr int kTetBlocks = 10;
-/** Places in the matrix they go to: these ten, and the transposes of the last six. */
-constexpr int kTetPositions = 16;
 
 /** Constant data of groups of tets; arrays hold all groups in a row. */
 struct TetGroups
 {
-  const Index* nodes;       ///< [group][4][8]
+  const Index* nodes;       ///< [group][4][8], a tet's in any order
   const double* gradients;  ///< [group][3][3][8]: rows of the inverse rest edge matrix, 1/m
-  const double* volumes;    ///< [group][8], m^3; 0 in unused lanes
+  const double* volumes;    ///< [group][8], m^3, > 0; 0 in unused lanes
   const double* constants;  ///< [group][kMaterialConstants][8]
 };
 
@@ -37,8 +35,9 @@ struct TetKernels
   /** gradient += forces of the groups' tets, flat, 3 per node, N. */
   void (*gradient)(const TetGroups&, Index begin, Index end, const double* x, double* gradient);
   /**
-   * Adds the second derivative, N/m, to blocks of nine values by columns.
-   * @param positions  [group][kTetPositions][8]: block numbers
+   * Adds the second derivative, N/m, to blocks of nine values by columns. Nodes must ascend within
+   * each tet: only blocks on and above the diagonal are written.
+   * @param positions  [group][kTetBlocks][8]: block numbers
    */
   void (*stiffness)(const TetGroups&, Index begin, Index end, const double* x,
                     const Index* positions, double* values);

@@ -40,7 +40,11 @@ struct StepReport
   StageTimes ms;
 };
 
-/** One contact sample between a tool and a tissue, world frame. */
+/**
+ * One contact sample between a tool and a tissue, world frame. Forces of all samples add up to the
+ * tool's wrench; where an edge crosses the surface a sample of no depth and area carries a small
+ * part of it.
+ */
 struct ContactPoint
 {
   Vec3 position_W;     ///< m
