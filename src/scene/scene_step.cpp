@@ -114,7 +114,8 @@ bool Scene::Impl::minimise(double from, double to)
   report_.linear_iterations += newton.linear_iterations;
   report_.residual = newton.residual;
   report_.converged = newton.converged;
-  if (!newton.finite || !(newton.residual <= std::max(kFailedResidual, config_.solver.tolerance)))
+  const double failed = std::max(kFailedResidual, config_.solver.tolerance);
+  if (!newton.finite || !(newton.converged || newton.residual <= failed))
   {
     return false;
   }

@@ -11,13 +11,14 @@ class Cholesky : public LinearSolver
  public:
   LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
   {
-    if (matrix_.rows() != 3 * a.rows() || blocks_ != a.columns().size())
+    if (offsets_ != a.offsets() || columns_ != a.columns())
     {
       analyse(a);
     }
     fill(a);
     factor_.factorize(matrix_);
-    if (factor_.info() == Eigen::Success && factor_.vectorD().minCoeff() < 0.0)
+    const bool positive = factor_.vectorD().allFinite() && factor_.vectorD().minCoeff() > 0.0;
+    if (factor_.info() == Eigen::Success && !positive)
     {
       d.assign(b.size(), Vec3::Zero());
       return {1, true};
@@ -37,7 +38,8 @@ class Cholesky : public LinearSolver
   void analyse(const BlockMatrix& a)
   {
     const Index rows = a.rows();
-    blocks_ = a.columns().size();
+    offsets_ = a.offsets();
+    columns_ = a.columns();
     std::vector<Eigen::Triplet<double>> entries;
     for (Index j = 0; j < rows; ++j)
     {
@@ -78,7 +80,7 @@ class Cholesky : public LinearSolver
     }
   }
 
-  std::size_t blocks_ = 0;
+  std::vector<Index> offsets_, columns_;  ///< the pattern analysed
   Eigen::SparseMatrix<double> matrix_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor_;
   std::unique_ptr<LinearSolver> iterative_ = makePcg();

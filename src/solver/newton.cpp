@@ -13,6 +13,9 @@ namespace
 constexpr Index kGrain = 512;
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kMaxBacktracks = 40;
+/** Rounding errors of a potential, as a share of the sum of its terms: materials subtract terms of
+ * the size of their stiffness. */
+constexpr double kNoise = 1e-9;
 /** Full steps are lengthened where more than this share of slope times step is gained. */
 constexpr double kFallsAhead = 0.75;
 constexpr double kLongestStep = 64.0;
@@ -102,10 +105,10 @@ NewtonSolver::Potential NewtonSolver::evaluate(const std::vector<EnergyTerm*>& t
   return sum;
 }
 
-double NewtonSolver::gradient(const std::vector<EnergyTerm*>& terms, const Points& x,
+double NewtonSolver::gradient(const std::vector<EnergyTerm*>& terms, const Points& x, Points& sum,
                               std::vector<double>& seconds)
 {
-  setZero(gradient_, x.size());
+  setZero(sum, x.size());
   double scale = 0.0;
   for (std::size_t k = 0; k < terms.size(); ++k)
   {
@@ -119,10 +122,10 @@ double NewtonSolver::gradient(const std::vector<EnergyTerm*>& terms, const Point
     scale += std::sqrt(dot(term_gradient_, term_gradient_));
     for (std::size_t i = 0; i < x.size(); ++i)
     {
-      gradient_[i] += term_gradient_[i];
+      sum[i] += term_gradient_[i];
     }
   }
-  const double norm = std::sqrt(dot(gradient_, gradient_));
+  const double norm = std::sqrt(dot(sum, sum));
   if (scale == 0.0)
   {
     return norm == 0.0 ? 0.0 : std::nan("");
@@ -190,10 +193,18 @@ bool NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Point
       return false;
     }
     potential = tryStep(terms, x, step, seconds);
-    const double rounding = 4e-15 * std::max(potential.magnitude, start.magnitude);
-    if (potential.value <= start.value + kSufficientDecrease * step * slope + rounding)
+    if (potential.value <= start.value + kSufficientDecrease * step * slope)
     {
       break;
+    }
+    // Too close to the bottom for the values to tell: the slopes still can.
+    if (potential.value <= start.value + kNoise * start.magnitude)
+    {
+      gradient(terms, trial_, trial_gradient_, seconds);
+      if (dot(trial_gradient_, direction_) <= (2.0 * kSufficientDecrease - 1.0) * slope)
+      {
+        break;
+      }
     }
   }
   // A bowl gives half of what the slope promises. Where the potential keeps that promise the way
@@ -221,7 +232,7 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
   const std::size_t n = x.size();
   descent_.resize(n);
   trial_.resize(n);
-  report.residual = gradient(terms, x, seconds);
+  report.residual = gradient(terms, x, gradient_, seconds);
   Potential potential;
   double accuracy = kFirstAccuracy;
   Curvature curvature = Curvature::exact;
@@ -231,6 +242,10 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
     if (report.iterations == 0)
     {
       potential = evaluate(terms, x, seconds);
+      if (!std::isfinite(potential.value))
+      {
+        break;
+      }
     }
     ++report.iterations;
     for (std::size_t i = 0; i < n; ++i)
@@ -244,13 +259,14 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
                     ? Curvature::exact
                     : Curvature::positive;
     assemble(terms, x, curvature, seconds);
-    if (!solve(accuracy, report) && curvature == Curvature::exact)
+    bool definite = solve(accuracy, report);
+    if (!definite && curvature == Curvature::exact)
     {
       indefinite_at = report.residual;
       assemble(terms, x, Curvature::positive, seconds);
-      solve(accuracy, report);
+      definite = solve(accuracy, report);
     }
-    if (largest(direction_) <= kUnresolved * largest(x))
+    if (definite && largest(direction_) <= kUnresolved * largest(x))
     {
       report.converged = true;
       return report;
@@ -261,7 +277,7 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
     }
     x.swap(trial_);
     const double before = report.residual;
-    report.residual = gradient(terms, x, seconds);
+    report.residual = gradient(terms, x, gradient_, seconds);
     if (!std::isfinite(report.residual))
     {
       x.swap(trial_);

@@ -1,4 +1,5 @@
 #include <Eigen/LU>
+#include <cmath>
 
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/solver/block_product.h"
@@ -35,6 +36,10 @@ class Pcg : public LinearSolver
     const double enough = tolerance * tolerance * now.rr;
     const BlockRows rows = {a.offsets().data(), a.columns().data(), a.values().data()};
     const int most = 10 * static_cast<int>(n) + 100;
+    if (!std::isfinite(now.rr))
+    {
+      return {0, true};
+    }
     int iteration = 0;
     while (now.rr > enough && iteration < most)
     {
@@ -64,6 +69,11 @@ class Pcg : public LinearSolver
         }
         return sums;
       });
+      if (!std::isfinite(next.rr))  // singular, and no solution
+      {
+        d.assign(n, Vec3::Zero());
+        return {iteration, true};
+      }
       const double ratio = next.rz / now.rz;
       now = next;
       parallelFor(n, kGrain, [&](Index begin, Index end) {

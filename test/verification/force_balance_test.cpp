@@ -94,7 +94,7 @@ void pressUntilRest(Scene& scene, int steps, Snapshot& snapshot)
 {
   const Descent descent(scene);
   constexpr int kMost = 500;
-  constexpr double kRest = 1e-9;  // m, in a step
+  constexpr double kRest = 1e-10;  // m, in a step
   Points before;
   for (int k = 1; k <= kMost; ++k)
   {
@@ -182,16 +182,15 @@ TEST_P(ForceBalance, ContactsAddUpToTheWrench)
     EXPECT_EQ(contact.tissue, 0);
   }
   EXPECT_EQ(snapshot.report.contacts, static_cast<int>(snapshot.tools[0].contacts.size()));
-  // Edges clipped at a surface push a little at the clip point, which is no contact of its own.
-  const double tolerance = response() == Response::point ? 1e-12 : 0.02;
   const Load tool = loadOn(snapshot.tools[0]);
   EXPECT_GT(contacts.size, 0.05);
-  EXPECT_LT((tool.force - contacts.force).norm(), tolerance * contacts.size);
-  EXPECT_LT((tool.moment - contacts.moment).norm(), tolerance * contacts.size * kBlockTop);
+  EXPECT_LT((tool.force - contacts.force).norm(), 1e-12 * contacts.size);
+  EXPECT_LT((tool.moment - contacts.moment).norm(), 1e-12 * contacts.size * kBlockTop);
 }
 
 // Static, and dynamic once all has come to rest: the tool has what the support and the weight
-// leave.
+// leave. Smooth tools have one equilibrium, found either way; beside the edges of a box tissue can
+// lie on either face, so that where it rests depends on how it came there.
 TEST_P(ForceBalance, HeldToolCarriesTheLoadOfTheEquilibrium)
 {
   for (const double gravity : {0.0, -9.81})
@@ -203,6 +202,7 @@ TEST_P(ForceBalance, HeldToolCarriesTheLoadOfTheEquilibrium)
       config.gravity_m_per_s2.z() = gravity;
       config.solver.stepper = dynamic ? Stepper::implicit_euler : Stepper::quasi_static;
       config.time_step_s = 0.02;
+      config.solver.tolerance = 1e-9;
       Scene scene(config);
       Snapshot snapshot;
       ASSERT_NO_FATAL_FAILURE(pressUntilRest(scene, 8, snapshot));
@@ -220,9 +220,12 @@ TEST_P(ForceBalance, HeldToolCarriesTheLoadOfTheEquilibrium)
           << which;
       tools[dynamic ? 1 : 0] = tool;
     }
-    EXPECT_LT((tools[1].force - tools[0].force).norm(), 1e-4 * tools[0].size) << gravity;
-    EXPECT_LT((tools[1].moment - tools[0].moment).norm(), 1e-4 * tools[0].size * kBlockTop)
-        << gravity;
+    if (!std::holds_alternative<BoxShape>(press().shape))
+    {
+      EXPECT_LT((tools[1].force - tools[0].force).norm(), 1e-5 * tools[0].size) << gravity;
+      EXPECT_LT((tools[1].moment - tools[0].moment).norm(), 1e-5 * tools[0].size * kBlockTop)
+          << gravity;
+    }
   }
 }
 

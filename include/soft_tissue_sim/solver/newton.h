@@ -68,7 +68,7 @@ class NewtonSolver
   };
   Potential evaluate(const std::vector<EnergyTerm*>& terms, const Points& x,
                      std::vector<double>& seconds);
-  double gradient(const std::vector<EnergyTerm*>& terms, const Points& x,
+  double gradient(const std::vector<EnergyTerm*>& terms, const Points& x, Points& sum,
                   std::vector<double>& seconds);
   void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
                 std::vector<double>& seconds);
@@ -82,7 +82,7 @@ class NewtonSolver
   std::vector<Index> fixed_blocks_;  ///< blocks in a row or column of a fixed node
   BlockMatrix hessian_;
   std::unique_ptr<LinearSolver> linear_;
-  Points gradient_, term_gradient_, descent_, direction_, trial_;
+  Points gradient_, term_gradient_, trial_gradient_, descent_, direction_, trial_;
 };
 
 }  // namespace soft_tissue
