@@ -66,19 +66,6 @@ void Scene::Impl::fillSnapshot(Snapshot& snapshot)
   }
 }
 
-void Scene::Impl::fillDepth(std::size_t index, std::vector<double>& depth)
-{
-  Tissue& tissue = tissues_[index];
-  if (!tissue.display_field)
-  {
-    tissue.display_field =
-        makeDistanceField(config_.tissues[index].field.method, fieldTopology(index));
-  }
-  const auto first = x_.begin() + tissue.first_node;
-  tissue.display_field->march(Points(first, first + tissue.node_count));
-  depth = tissue.display_field->depth();
-}
-
 Scene::Scene(const SceneConfig& config) : impl_(std::make_unique<Impl>(config)) {}
 Scene::~Scene() = default;
 Scene::Scene(Scene&&) noexcept = default;
@@ -127,11 +114,6 @@ std::uint64_t Scene::stateHash() const
 void Scene::fillSnapshot(Snapshot& snapshot) const
 {
   impl_->fillSnapshot(snapshot);
-}
-
-void Scene::fillDepth(std::size_t tissue, std::vector<double>& depth)
-{
-  impl_->fillDepth(tissue, depth);
 }
 
 }  // namespace soft_tissue

@@ -25,7 +25,6 @@ class Scene::Impl
   void refuseDeepStart();
   std::uint64_t stateHash() const;
   void fillSnapshot(Snapshot& snapshot);
-  void fillDepth(std::size_t tissue, std::vector<double>& depth);
 
   /** How often a step may be halved before it is given up. */
   static constexpr int kMaxHalvings = 4;
@@ -54,7 +53,6 @@ class Scene::Impl
     Adjacency neighbours;
     std::vector<std::array<Index, 4>> tet_neighbours;
     std::unique_ptr<TetElasticity> elasticity;
-    std::unique_ptr<DistanceField> display_field;  ///< made when somebody asks for the whole field
   };
   struct Contact
   {

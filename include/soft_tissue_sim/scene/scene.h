@@ -139,13 +139,6 @@ class Scene
   /** Copies the state out, reusing the memory `snapshot` already has. */
   void fillSnapshot(Snapshot& snapshot) const;
 
-  /**
-   * Depth of every node inside its deformed tissue, marched here and now for those who want to see
-   * it.
-   * @param depth  out, N, m: 0 on the boundary, > 0 inside
-   */
-  void fillDepth(std::size_t tissue, std::vector<double>& depth);
-
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

@@ -98,14 +98,12 @@ TEST(SceneStep, ReadingOutChangesNothing)
 {
   Scene scene(lobeUnderBall()), silent(lobeUnderBall());
   Snapshot snapshot;
-  std::vector<double> depth;
   for (int n = 1; n <= 50; ++n)
   {
     press(scene, n);
     press(silent, n);
     const std::uint64_t hash = scene.stateHash();
     scene.fillSnapshot(snapshot);
-    scene.fillDepth(0, depth);
     EXPECT_EQ(snapshot.state_hash, hash);
     EXPECT_EQ(scene.stateHash(), hash);
     ASSERT_EQ(silent.stateHash(), hash) << "step " << n;
