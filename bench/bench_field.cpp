@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "soft_tissue_sim/contact/tissue_depth.h"
 #include "support/field_meshes.h"
 #include "support/field_oracle.h"
 
@@ -73,31 +74,34 @@ void marchLazyOnePercent(benchmark::State& state)
   report(state, body, *field);
 }
 
-/** One inner point a call, from the closest triangles of its tet's nodes. */
-void descend(benchmark::State& state)
+/** The depth of one inner point a call, by the nearest boundary feature. */
+void depthOfPoint(benchmark::State& state)
 {
   const test::FieldBody body = ball(state);
+  const Points& x = body.mesh.nodes;
   const auto field = body.field();
-  field->march(body.mesh.nodes);
-  std::size_t next = 0;
+  field->march(x);
+  TissueBody tissue;
+  tissue.tets = &body.mesh.tets;
+  tissue.surface = &body.surface;
+  tissue.node_count = static_cast<Index>(x.size());
+  TissueDepth depth(tissue, true);
+  depth.prepare(x);
+  Index next = 0;
   for (auto _ : state)
   {
     const Tet& tet = body.mesh.tets[next];
-    next = (next + 7919) % body.mesh.tets.size();
-    Index starts[4];
-    Vec3 p = Vec3::Zero();
-    for (int k = 0; k < 4; ++k)
-    {
-      starts[k] = field->closestTriangle()[tet[k]];
-      p += 0.25 * body.mesh.nodes[tet[k]];
-    }
-    benchmark::DoNotOptimize(
-        descendToBoundary(p, body.mesh.nodes, body.surface, starts, 4).distance);
+    const Vec3 p = 0.25 * (x[tet[0]] + x[tet[1]] + x[tet[2]] + x[tet[3]]);
+    const auto coords = tetCoordinates(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
+    ContactSample sample;
+    benchmark::DoNotOptimize(depth.evaluate(p, next, *coords, x, *field, sample));
+    benchmark::DoNotOptimize(sample.depth);
+    next = (next + 7919) % static_cast<Index>(body.mesh.tets.size());
   }
 }
 
 BENCHMARK(marchFull)->Arg(9)->Arg(20)->Unit(benchmark::kMillisecond);
 BENCHMARK(marchLazyOnePercent)->Arg(9)->Arg(20)->Unit(benchmark::kMillisecond);
-BENCHMARK(descend)->Arg(9)->Arg(20)->Unit(benchmark::kMicrosecond);
+BENCHMARK(depthOfPoint)->Arg(9)->Arg(20)->Unit(benchmark::kMicrosecond);
 }  // namespace
 }  // namespace soft_tissue

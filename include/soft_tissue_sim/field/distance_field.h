@@ -50,22 +50,4 @@ class DistanceField
 std::unique_ptr<DistanceField> makeDistanceField(const std::string& method,
                                                  const FieldTopology& topology);
 
-/** Point of the deformed boundary nearest to a point inside. */
-struct BoundaryPoint
-{
-  Index triangle = -1;
-  double distance = 0.0;        ///< m, >= 0
-  Vec3 point = Vec3::Zero();    ///< m
-  Vec3 weights = Vec3::Zero();  ///< of the triangle's three nodes, sum 1, >= 0
-};
-
-/**
- * Nearest point of the deformed boundary found by descent over adjacent triangles, from each of the
- * given ones (-1: none): a local minimum, the global one where a start lies in its basin.
- *
- * @return triangle -1 at infinite distance if no start is given
- */
-BoundaryPoint descendToBoundary(const Vec3& p, const Points& x, const BoundarySurface& surface,
-                                const Index* start_triangles, int start_count);
-
 }  // namespace soft_tissue

@@ -36,7 +36,7 @@ namespace soft_tissue
 {
 namespace
 {
-TEST(FieldAllocation, MarchesAndDescentsTakeNoMemory)
+TEST(FieldAllocation, MarchesTakeNoMemory)
 {
   const test::FieldBody body(test::ballMesh(8, 0.05));
   test::RandomGeometry random(1);
@@ -52,11 +52,7 @@ TEST(FieldAllocation, MarchesAndDescentsTakeNoMemory)
   field->marchUntil(shaken, wanted);
   field->march(shaken);
   field->marchUntil(body.mesh.nodes, wanted);
-  const Index start = field->closestTriangle()[0];
-  const BoundaryPoint point =
-      descendToBoundary(Vec3(0.01, 0.02, 0.0), body.mesh.nodes, body.surface, &start, 1);
   EXPECT_EQ(allocation_count, before);
-  EXPECT_GE(point.triangle, 0);
   ::operator delete(::operator new(1));
   EXPECT_GT(allocation_count, before);  // the counter does count
 }
