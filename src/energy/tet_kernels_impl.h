@@ -26,7 +26,7 @@ void tetGradient(const TetGroups& groups, Index begin, Index end, const double* 
 {
   forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
     const PackMat p = Material::stress(t.f, t.constants);
-    Pack g[padded(12)] = {};
+    Pack g[padded(12)];
     for (int i = 0; i < 3; ++i)
     {
       for (int node = 1; node < 4; ++node)
@@ -35,6 +35,10 @@ void tetGradient(const TetGroups& groups, Index begin, Index end, const double* 
         g[3 * node + i] = t.volume * (p.m[i][0] * b[0] + p.m[i][1] * b[1] + p.m[i][2] * b[2]);
       }
       g[i] = -(g[3 + i] + g[6 + i] + g[9 + i]);
+    }
+    for (int k = 12; k < padded(12); ++k)
+    {
+      g[k] = Pack{};
     }
     alignas(64) double rows[kLanes][padded(12)];
     transpose<12>(g, rows);

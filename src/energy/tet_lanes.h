@@ -3,6 +3,8 @@
  */
 #pragma once
 
+#include <utility>
+
 #include "materials.h"
 #include "soft_tissue_sim/energy/tet_kernels.h"
 
@@ -80,29 +82,30 @@ constexpr int padded(int count)
   return (count + kLanes - 1) / kLanes * kLanes;
 }
 
+/** Exchanges the off-diagonal quarters of each square of 2 kSize lanes of two packs. */
+template <int kSize, int... kLane>
+inline void exchange(Pack& a, Pack& b, std::integer_sequence<int, kLane...>)
+{
+  const Pack old = a;
+  a = __builtin_shuffle(old, b, Mask{(kLane & kSize ? kLane - kSize + kLanes : kLane)...});
+  b = __builtin_shuffle(old, b, Mask{(kLane & kSize ? kLane + kLanes : kLane + kSize)...});
+}
+
 /** Turns the square of packs at v[0] ... v[kLanes - 1]: lane j of pack i becomes lane i of pack j.
  */
+template <int kSize = 1>
 inline void transposeSquare(Pack* v)
 {
-  for (int size = 1; size < kLanes; size *= 2)
+  for (int i = 0; i < kLanes; ++i)
   {
-    // Exchange the off-diagonal quarters of each square of 2 size lanes.
-    Mask low, high;
-    for (int lane = 0; lane < kLanes; ++lane)
+    if ((i & kSize) == 0)
     {
-      const bool left = (lane & size) == 0;
-      low[lane] = left ? lane : lane - size + kLanes;
-      high[lane] = left ? lane + size : lane + kLanes;
+      exchange<kSize>(v[i], v[i + kSize], std::make_integer_sequence<int, kLanes>());
     }
-    for (int i = 0; i < kLanes; ++i)
-    {
-      if ((i & size) == 0)
-      {
-        const Pack a = v[i], b = v[i + size];
-        v[i] = __builtin_shuffle(a, b, low);
-        v[i + size] = __builtin_shuffle(a, b, high);
-      }
-    }
+  }
+  if constexpr (2 * kSize < kLanes)
+  {
+    transposeSquare<2 * kSize>(v);
   }
 }
 

@@ -52,36 +52,28 @@ inline void addStiffness(const Block& blockOf, const Index* positions, double* v
   constexpr int kSize = 9 * kTetBlocks;
   constexpr int kUpper[3][3] = {{0, 7, 8}, {7, 0, 9}, {8, 9, 0}};  // blocks (1, 2), (1, 3), (2, 3)
   Pack out[padded(kSize)];
-  PackMat row[3] = {};  // row sums of the blocks of nodes 1, 2, 3: minus the blocks with node 0
+  PackMat blocks[3][3];
   for (int a = 0; a < 3; ++a)
   {
     for (int b = a; b < 3; ++b)
     {
-      const PackMat block = blockOf(a, b);
-      storeBlock(block, out + 9 * (a == b ? a + 1 : kUpper[a][b]));
-      for (int i = 0; i < 3; ++i)
-      {
-        for (int j = 0; j < 3; ++j)
-        {
-          row[a].m[i][j] += block.m[i][j];
-          if (b != a)
-          {
-            row[b].m[i][j] += block.m[j][i];
-          }
-        }
-      }
+      blocks[a][b] = blockOf(a, b);
+      storeBlock(blocks[a][b], out + 9 * (a == b ? a + 1 : kUpper[a][b]));
     }
   }
-  PackMat corner = {};
-  for (int a = 0; a < 3; ++a)
+  PackMat corner;
+  for (int i = 0; i < 3; ++i)
   {
-    for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
     {
-      for (int j = 0; j < 3; ++j)
+      const Pack row[3] = {blocks[0][0].m[i][j] + blocks[0][1].m[i][j] + blocks[0][2].m[i][j],
+                           blocks[0][1].m[j][i] + blocks[1][1].m[i][j] + blocks[1][2].m[i][j],
+                           blocks[0][2].m[j][i] + blocks[1][2].m[j][i] + blocks[2][2].m[i][j]};
+      for (int a = 0; a < 3; ++a)
       {
-        corner.m[i][j] += row[a].m[i][j];
-        out[9 * (4 + a) + 3 * j + i] = -row[a].m[j][i];
+        out[9 * (4 + a) + 3 * i + j] = -row[a];
       }
+      corner.m[i][j] = row[0] + row[1] + row[2];
     }
   }
   storeBlock(corner, out);
