@@ -160,6 +160,7 @@ void Scene::Impl::addContact(std::size_t index)
   ToolContactOptions options;
   options.segments = contact_config.response == Response::segment;
   options.closest_feature = tissue_config.field.depth == DepthKind::closest_feature;
+  options.lazy_field = tissue_config.field.refresh == FieldRefresh::lazy;
   options.friction = contact_config.friction;
   options.stiffness_pa_per_m = contact_config.stiffness_pa_per_m.value_or(
       kAutoStiffness * tissue_config.material.young_modulus_pa / shape.innerRadius());
