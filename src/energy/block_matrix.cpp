@@ -4,7 +4,6 @@
 #include <string>
 
 #include "soft_tissue_sim/base/error.h"
-#include "soft_tissue_sim/base/parallel.h"
 
 namespace soft_tissue
 {
@@ -41,24 +40,6 @@ BlockMatrix::BlockMatrix(const Adjacency& neighbours)
 void BlockMatrix::setZero()
 {
   std::fill(values_.begin(), values_.end(), 0.0);
-}
-
-void BlockMatrix::mirrorUpper()
-{
-  parallelFor(rows(), 64, [this](Index begin, Index end) {
-    for (Index row = begin; row < end; ++row)
-    {
-      for (Index k = offsets_[row]; k < diagonal_[row]; ++k)
-      {
-        const double* from = block(mirror_[k]);
-        double* to = block(k);
-        for (int i = 0; i < 9; ++i)
-        {
-          to[i] = from[3 * (i % 3) + i / 3];
-        }
-      }
-    }
-  });
 }
 
 Index BlockMatrix::find(Index row, Index column) const

@@ -142,7 +142,6 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
     const ScopedTimer timer(seconds[k]);
     terms[k]->addHessian(x, curvature, hessian_);
   }
-  hessian_.mirrorUpper();
   // Fixed nodes: rows and columns of the identity.
   for (const Index position : fixed_blocks_)
   {

@@ -2,126 +2,147 @@
 #include <cmath>
 
 #include "soft_tissue_sim/base/parallel.h"
-#include "soft_tissue_sim/solver/block_product.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
+#include "soft_tissue_sim/solver/pcg_kernels.h"
 
 namespace soft_tissue
 {
 namespace
 {
 constexpr Index kGrain = 256;
+/** Answers no more exact than this are found in single precision. */
+constexpr double kSingleTolerance = 1e-3;
 
-class Pcg : public LinearSolver
+/** Conjugate gradients in one precision, preconditioned by the inverse diagonal blocks. */
+template <typename Real>
+class Conjugator
 {
  public:
-  Pcg() : product_(blockProduct(instructionSet())) {}
-
-  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
+  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d)
   {
     const Index n = a.rows();
-    invertDiagonal(a);
-    residual_ = b;
-    direction_.resize(n);
-    image_.resize(n);
     d.assign(n, Vec3::Zero());
-    Sums now = parallelSum(n, kGrain, [&](Index begin, Index end) {
-      Sums sums;
-      for (Index i = begin; i < end; ++i)
+    double scale = 0.0;  // |b| becomes about 1: what is squared below stays within range
+    for (const Vec3& v : b)
+    {
+      scale += v.squaredNorm();
+    }
+    scale = std::sqrt(scale);
+    if (!(scale > 0.0) || !std::isfinite(scale))
+    {
+      return {0, scale != 0.0};
+    }
+    load(a, b, 1.0 / scale);
+    const LinearReport report = iterate(a, n, tolerance);
+    for (Index i = 0; i < n; ++i)
+    {
+      const Vec3 moved(solution_[3 * i], solution_[3 * i + 1], solution_[3 * i + 2]);
+      d[i] = scale * moved;
+    }
+    return report;
+  }
+
+ private:
+  void load(const BlockMatrix& a, const Points& b, double scale)
+  {
+    const Index n = a.rows();
+    values_.resize(a.values().size());
+    inverse_.resize(9 * static_cast<std::size_t>(n) + 1);
+    residual_.resize(3 * static_cast<std::size_t>(n));
+    direction_.resize(residual_.size());
+    image_.resize(residual_.size());
+    solution_.assign(residual_.size(), Real(0));
+    parallelFor(n, kGrain, [&](Index begin, Index end) {
+      for (Index row = begin; row < end; ++row)
       {
-        direction_[i] = inverse_diagonal_[i] * residual_[i];
-        sums.add(residual_[i], direction_[i]);
+        loadRow(a, row);
+        const Mat3 inverse = Eigen::Map<const Mat3>(a.block(a.diagonal(row))).inverse();
+        const bool usable = inverse.allFinite();
+        for (int k = 0; k < 9; ++k)
+        {
+          inverse_[9 * row + k] = static_cast<Real>(usable ? inverse.data()[k] : k % 4 == 0);
+        }
+        for (int k = 0; k < 3; ++k)
+        {
+          residual_[3 * row + k] = static_cast<Real>(scale * b[row][k]);
+        }
       }
-      return sums;
+    });
+  }
+
+  void loadRow(const BlockMatrix& a, Index row)
+  {
+    for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
+    {
+      Real* to = values_.data() + 9 * static_cast<std::size_t>(k);
+      const bool upper = k >= a.diagonal(row);
+      const double* from = a.block(upper ? k : a.mirror(k));
+      for (int i = 0; i < 9; ++i)
+      {
+        to[i] = static_cast<Real>(from[upper ? i : 3 * (i % 3) + i / 3]);
+      }
+    }
+  }
+
+  LinearReport iterate(const BlockMatrix& a, Index n, double tolerance)
+  {
+    const PcgKernels<Real>& kernels = pcgKernels<Real>(instructionSet());
+    const BlockRows<Real> rows = {a.offsets().data(), a.columns().data(), values_.data()};
+    Real* d = solution_.data();
+    Real* r = residual_.data();
+    Real* p = direction_.data();
+    Real* q = image_.data();
+    const Real* inverse = inverse_.data();
+    PcgSums now = parallelSum(n, kGrain, [&](Index begin, Index end) {
+      return kernels.precondition(begin, end, inverse, r, p);
     });
     const double enough = tolerance * tolerance * now.rr;
-    const BlockRows rows = {a.offsets().data(), a.columns().data(), a.values().data()};
     const int most = 10 * static_cast<int>(n) + 100;
-    if (!std::isfinite(now.rr))
-    {
-      return {0, true};
-    }
     int iteration = 0;
     while (now.rr > enough && iteration < most)
     {
       ++iteration;
       const double curvature = parallelSum(n, kGrain, [&](Index begin, Index end) {
-        product_(rows, begin, end, direction_.data()->data(), image_.data()->data());
-        double sum = 0.0;
-        for (Index i = begin; i < end; ++i)
-        {
-          sum += direction_[i].dot(image_[i]);
-        }
-        return sum;
+        return kernels.multiply(rows, begin, end, p, q);
       });
       if (!(curvature > 0.0))
       {
         return {iteration, true};
       }
-      const double step = now.rz / curvature;
-      const Sums next = parallelSum(n, kGrain, [&](Index begin, Index end) {
-        Sums sums;
-        for (Index i = begin; i < end; ++i)
-        {
-          d[i] += step * direction_[i];
-          residual_[i] -= step * image_[i];
-          image_[i] = inverse_diagonal_[i] * residual_[i];
-          sums.add(residual_[i], image_[i]);
-        }
-        return sums;
+      const Real step = static_cast<Real>(now.rz / curvature);
+      const PcgSums next = parallelSum(n, kGrain, [&](Index begin, Index end) {
+        return kernels.advance(begin, end, inverse, step, p, d, r, q);
       });
       if (!std::isfinite(next.rr))  // singular, and no solution
       {
-        d.assign(n, Vec3::Zero());
+        solution_.assign(solution_.size(), Real(0));
         return {iteration, true};
       }
-      const double ratio = next.rz / now.rz;
+      const Real ratio = static_cast<Real>(next.rz / now.rz);
       now = next;
-      parallelFor(n, kGrain, [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i)
-        {
-          direction_[i] = image_[i] + ratio * direction_[i];
-        }
-      });
+      parallelFor(n, kGrain,
+                  [&](Index begin, Index end) { kernels.turn(begin, end, ratio, q, p); });
     }
-    return {iteration, false};
+    return {iteration, !std::isfinite(now.rr)};
+  }
+
+  std::vector<Real> values_;   ///< the matrix, both triangles
+  std::vector<Real> inverse_;  ///< of its diagonal blocks
+  std::vector<Real> residual_, direction_, image_, solution_;
+};
+
+class Pcg : public LinearSolver
+{
+ public:
+  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
+  {
+    return tolerance >= kSingleTolerance ? single_.solve(a, b, tolerance, d)
+                                         : double_.solve(a, b, tolerance, d);
   }
 
  private:
-  /** |r|^2 and r . z, z being the preconditioned residual. */
-  struct Sums
-  {
-    double rr = 0.0;
-    double rz = 0.0;
-
-    void add(const Vec3& r, const Vec3& z)
-    {
-      rr += r.squaredNorm();
-      rz += r.dot(z);
-    }
-    void operator+=(const Sums& other)
-    {
-      rr += other.rr;
-      rz += other.rz;
-    }
-  };
-
-  void invertDiagonal(const BlockMatrix& a)
-  {
-    inverse_diagonal_.resize(a.rows());
-    for (Index i = 0; i < a.rows(); ++i)
-    {
-      const Mat3 block = Eigen::Map<const Mat3>(a.block(a.diagonal(i)));
-      inverse_diagonal_[i] = block.inverse();
-      if (!inverse_diagonal_[i].allFinite())
-      {
-        inverse_diagonal_[i].setIdentity();
-      }
-    }
-  }
-
-  BlockProduct product_;
-  std::vector<Mat3> inverse_diagonal_;
-  Points residual_, direction_, image_;
+  Conjugator<float> single_;
+  Conjugator<double> double_;
 };
 }  // namespace
 

@@ -60,15 +60,18 @@ inline Eigen::MatrixXd differenceHessian(EnergyTerm& term, const Points& x, doub
   return hessian;
 }
 
-/** A block matrix as a dense one. */
+/** A block matrix as a dense one: its upper blocks and their transposes. */
 inline Eigen::MatrixXd dense(const BlockMatrix& a)
 {
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(3 * a.rows(), 3 * a.rows());
   for (Index row = 0; row < a.rows(); ++row)
   {
-    for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
+    for (Index k = a.diagonal(row); k < a.offsets()[row + 1]; ++k)
     {
-      m.block<3, 3>(3 * row, 3 * a.columns()[k]) = Eigen::Map<const Mat3>(a.block(k));
+      const Index column = a.columns()[k];
+      const Mat3 block = Eigen::Map<const Mat3>(a.block(k));
+      m.block<3, 3>(3 * column, 3 * row) = block.transpose();
+      m.block<3, 3>(3 * row, 3 * column) = block;
     }
   }
   return m;
@@ -80,7 +83,6 @@ inline Eigen::MatrixXd hessianOf(EnergyTerm& term, const Points& x, const Adjace
 {
   BlockMatrix hessian(neighbours);
   term.addHessian(x, curvature, hessian);
-  hessian.mirrorUpper();
   return dense(hessian);
 }
 

@@ -8,7 +8,8 @@ namespace soft_tissue
 {
 /**
  * Square symmetric matrix of 3 x 3 blocks with a fixed pattern: one block row per node, a block for
- * each pair of nodes that share an element (both triangles stored) and for each node itself.
+ * each pair of nodes that share an element and for each node itself. The pattern has both
+ * triangles; of the numbers those of blocks with row <= column count.
  */
 class BlockMatrix
 {
@@ -20,12 +21,11 @@ class BlockMatrix
   Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
   void setZero();
 
-  /** Blocks below the diagonal become the transposes of those above. */
-  void mirrorUpper();
-
   /** Position of block (row, column) in blocks(), or -1 outside the pattern. O(log row length). */
   Index find(Index row, Index column) const;
   Index diagonal(Index row) const { return diagonal_[row]; }
+  /** Position of block (column, row) for a block (row, column) on or below the diagonal. */
+  Index mirror(Index position) const { return mirror_[position]; }
 
   /** Column-major 9 doubles of one block. */
   double* block(Index position) { return values_.data() + 9 * static_cast<std::size_t>(position); }

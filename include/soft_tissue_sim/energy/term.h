@@ -31,8 +31,7 @@ class EnergyTerm
   /** gradient += d value / dx. */
   virtual void addGradient(const Points& x, Points& gradient) = 0;
 
-  /** hessian += d2 value / dx2, or its positive semi-definite part; only blocks with row <= column,
-   * see BlockMatrix::mirrorUpper(). */
+  /** hessian += d2 value / dx2, or its positive semi-definite part; blocks with row <= column. */
   virtual void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "support/deformed_tets.h"
@@ -69,6 +71,7 @@ TEST_P(EveryMaterial, EnergyDoesNotSeeRotations)
 TEST_P(EveryMaterial, GradientIsTheEnergysDerivative)
 {
   TetElasticity term = unitElement();
+  double worst = 0.0;
   for (const NamedF& f : deformationGradients())
   {
     const Points x = deformedUnitTet(f.f);
@@ -77,14 +80,17 @@ TEST_P(EveryMaterial, GradientIsTheEnergysDerivative)
     if (f.smooth || model() == MaterialModel::neo_hookean)
     {
       const double error = (gradient - differenceGradient(term, x, 1e-4)).norm();
+      worst = std::max(worst, error / (scale() + gradient.norm()));
       EXPECT_LT(error, 1e-8 * (scale() + gradient.norm())) << f.name;
     }
   }
+  std::printf("  gradient: off its difference by at most %.1e\n", worst);
 }
 
 TEST_P(EveryMaterial, HessianIsTheGradientsDerivative)
 {
   TetElasticity term = unitElement();
+  double worst = 0.0;
   for (const NamedF& f : deformationGradients())
   {
     const Points x = deformedUnitTet(f.f);
@@ -95,9 +101,12 @@ TEST_P(EveryMaterial, HessianIsTheGradientsDerivative)
     EXPECT_LT((hessian * Eigen::VectorXd::Ones(12)).norm(), 1e-13 * size) << f.name;
     if (f.smooth || model() == MaterialModel::neo_hookean)
     {
-      EXPECT_LT((hessian - differenceHessian(term, x, 1e-4)).norm(), 1e-7 * size) << f.name;
+      const double error = (hessian - differenceHessian(term, x, 1e-4)).norm();
+      worst = std::max(worst, error / size);
+      EXPECT_LT(error, 1e-7 * size) << f.name;
     }
   }
+  std::printf("  Hessian: off its difference by at most %.1e\n", worst);
 }
 
 TEST_P(EveryMaterial, ProjectedHessianIsThePositivePart)

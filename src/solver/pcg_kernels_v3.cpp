@@ -1,2 +1,2 @@
 #define SOFT_TISSUE_KERNELS kernels_v3
-#include "block_product_impl.h"
+#include "pcg_kernels_impl.h"

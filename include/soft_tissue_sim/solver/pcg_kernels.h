@@ -1,0 +1,51 @@
+#pragma once
+
+#include "soft_tissue_sim/base/cpu.h"
+#include "soft_tissue_sim/base/index.h"
+
+namespace soft_tissue
+{
+/** A block matrix, both triangles, as plain arrays of float or double. */
+template <typename Real>
+struct BlockRows
+{
+  const Index* offsets;
+  const Index* columns;
+  const Real* values;  ///< 9 per block by columns, and one more readable number at the end
+};
+
+/** What conjugate gradients sum up over nodes: |r|^2 and r . z. */
+struct PcgSums
+{
+  double rr = 0.0;
+  double rz = 0.0;
+  void operator+=(const PcgSums& other)
+  {
+    rr += other.rr;
+    rz += other.rz;
+  }
+};
+
+/**
+ * The passes of a conjugate-gradient iteration over nodes begin ... end - 1. Vectors are flat, 3
+ * per node; `inverse` is the preconditioner, 9 per node by columns, and one more readable number.
+ */
+template <typename Real>
+struct PcgKernels
+{
+  /** z = D r and its sums. */
+  PcgSums (*precondition)(Index begin, Index end, const Real* inverse, const Real* r, Real* z);
+  /** q = A p; returns p . q. */
+  double (*multiply)(const BlockRows<Real>& a, Index begin, Index end, const Real* p, Real* q);
+  /** d += step p, r -= step q, then q = D r and its sums. */
+  PcgSums (*advance)(Index begin, Index end, const Real* inverse, Real step, const Real* p, Real* d,
+                     Real* r, Real* q);
+  /** p = z + ratio p. */
+  void (*turn)(Index begin, Index end, Real ratio, const Real* z, Real* p);
+};
+
+/** The passes for this machine, Real being float or double; all give the same bits. */
+template <typename Real>
+const PcgKernels<Real>& pcgKernels(InstructionSet set);
+
+}  // namespace soft_tissue

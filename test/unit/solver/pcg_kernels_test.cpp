@@ -1,0 +1,174 @@
+#include "soft_tissue_sim/solver/pcg_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/block_matrices.h"
+#include "support/finite_difference.h"
+
+namespace soft_tissue
+{
+namespace
+{
+using namespace test;
+
+BlockRows<double> rowsOf(const BlockMatrix& a)
+{
+  return {a.offsets().data(), a.columns().data(), a.values().data()};
+}
+
+std::vector<InstructionSet> instructionSets()
+{
+  std::vector<InstructionSet> sets;
+  for (int set = 0; set <= static_cast<int>(instructionSet()); ++set)
+  {
+    sets.push_back(static_cast<InstructionSet>(set));
+  }
+  return sets;
+}
+
+TEST(PcgProduct, IsTheDenseProduct)
+{
+  const BlockMatrix a = randomPositiveMatrix(37, 60, 1);
+  const Points x = randomPoints(37, 2);
+  const Eigen::VectorXd expected = dense(a) * flat(x);
+  for (const InstructionSet set : instructionSets())
+  {
+    Points y(37, Vec3::Constant(1e300));
+    pcgKernels<double>(set).multiply(rowsOf(a), 0, 37, x.data()->data(), y.data()->data());
+    EXPECT_LT((flat(y) - expected).norm(), 1e-14 * expected.norm()) << name(set);
+  }
+}
+
+TEST(PcgProduct, HasTheSameBitsOnEveryInstructionSet)
+{
+  const BlockMatrix a = randomPositiveMatrix(101, 300, 3);
+  const Points x = randomPoints(101, 4);
+  Points first(101);
+  pcgKernels<double>(InstructionSet::baseline)
+      .multiply(rowsOf(a), 0, 101, x.data()->data(), first.data()->data());
+  for (const InstructionSet set : instructionSets())
+  {
+    Points y(101);
+    pcgKernels<double>(set).multiply(rowsOf(a), 0, 101, x.data()->data(), y.data()->data());
+    EXPECT_EQ(y, first) << name(set);
+  }
+}
+
+TEST(PcgProduct, WritesItsRowsOnly)
+{
+  const BlockMatrix a = randomPositiveMatrix(20, 30, 5);
+  const Points x = randomPoints(20, 6);
+  const Eigen::VectorXd expected = dense(a) * flat(x);
+  for (const InstructionSet set : instructionSets())
+  {
+    Points y(20, Vec3::Constant(7.0));
+    pcgKernels<double>(set).multiply(rowsOf(a), 5, 12, x.data()->data(), y.data()->data());
+    for (Index i = 0; i < 20; ++i)
+    {
+      const Vec3 row = i >= 5 && i < 12 ? Vec3(expected.segment<3>(3 * i)) : Vec3::Constant(7.0);
+      EXPECT_LT((y[i] - row).norm(), 1e-13) << name(set) << " row " << i;
+    }
+  }
+}
+
+// The fourth lane of the wide loads holds the next block's numbers: none of it may leak.
+TEST(PcgProduct, IsNotTouchedByWhatStandsBesideItsBlocks)
+{
+  BlockMatrix a = randomPositiveMatrix(8, 10, 7);
+  const Points x = randomPoints(8, 8);
+  const Eigen::VectorXd expected = dense(a) * flat(x);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::fill(a.values().begin() + 9 * static_cast<long>(a.columns().size()), a.values().end(), nan);
+  const Index last = a.offsets()[7];
+  for (const InstructionSet set : instructionSets())
+  {
+    Points y(8);
+    pcgKernels<double>(set).multiply(rowsOf(a), 0, 8, x.data()->data(), y.data()->data());
+    EXPECT_LT((flat(y) - expected).norm(), 1e-14 * expected.norm()) << name(set);
+
+    BlockMatrix broken = a;
+    std::fill_n(broken.block(last), 9, nan);
+    pcgKernels<double>(set).multiply(rowsOf(broken), 0, 7, x.data()->data(), y.data()->data());
+    EXPECT_LT((flat(y).head(21) - expected.head(21)).norm(), 1e-14 * expected.norm()) << name(set);
+  }
+}
+
+/** All passes once, from the same numbers, over two pieces that are no multiple of any width. */
+template <typename Real>
+std::vector<double> runPasses(InstructionSet set)
+{
+  constexpr Index kNodes = 37, kCut = 13;
+  const PcgKernels<Real>& kernels = pcgKernels<Real>(set);
+  const auto numbers = [](Index nodes, int each, unsigned seed) {
+    std::vector<Real> values;
+    for (const Vec3& p : randomPoints(nodes * each / 3 + 1, seed))
+    {
+      values.insert(values.end(), p.data(), p.data() + 3);
+    }
+    return values;
+  };
+  const std::vector<Real> inverse = numbers(kNodes, 9, 1), p = numbers(kNodes, 3, 2);
+  std::vector<Real> d = numbers(kNodes, 3, 3), r = numbers(kNodes, 3, 4), q = numbers(kNodes, 3, 5);
+  std::vector<Real> turned = p;
+  std::vector<double> results;
+  for (const Index begin : {Index{0}, kCut})
+  {
+    const Index end = begin == 0 ? kCut : kNodes;
+    const PcgSums sums = kernels.advance(begin, end, inverse.data(), Real(0.3), p.data(), d.data(),
+                                         r.data(), q.data());
+    kernels.turn(begin, end, Real(0.7), q.data(), turned.data());
+    results.insert(results.end(), {sums.rr, sums.rz});
+  }
+  for (const std::vector<Real>* vector : {&d, &r, &q, &turned})
+  {
+    results.insert(results.end(), vector->begin(), vector->begin() + 3 * kNodes);
+  }
+  return results;
+}
+
+TEST(PcgPasses, DoWhatTheirFormulasSayInBothPrecisions)
+{
+  constexpr Index kNodes = 37;
+  const Points blocks = randomPoints(3 * kNodes + 1, 1), p = randomPoints(kNodes + 1, 2),
+               d = randomPoints(kNodes + 1, 3), r = randomPoints(kNodes + 1, 4),
+               q = randomPoints(kNodes + 1, 5);
+  const std::vector<double> in_double = runPasses<double>(instructionSet());
+  const std::vector<double> in_float = runPasses<float>(instructionSet());
+  double rr = 0.0, rz = 0.0;
+  const auto expectAt = [&](std::size_t place, const Vec3& expected) {
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_NEAR(in_double[place + k], expected[k], 1e-14);
+      EXPECT_NEAR(in_float[place + k], expected[k], 1e-6);
+    }
+  };
+  for (Index i = 0; i < kNodes; ++i)
+  {
+    const Mat3 inverse = Eigen::Map<const Mat3>(blocks[3 * i].data());
+    const Vec3 residual = r[i] - 0.3 * q[i], z = inverse * residual;
+    expectAt(4 + 3 * i, d[i] + 0.3 * p[i]);
+    expectAt(4 + 3 * (kNodes + i), residual);
+    expectAt(4 + 3 * (2 * kNodes + i), z);
+    expectAt(4 + 3 * (3 * kNodes + i), z + 0.7 * p[i]);
+    rr += residual.squaredNorm();
+    rz += residual.dot(z);
+  }
+  EXPECT_NEAR(in_double[0] + in_double[2], rr, 1e-13 * rr);
+  EXPECT_NEAR(in_double[1] + in_double[3], rz, 1e-13 * rr);
+  EXPECT_NEAR(in_float[0] + in_float[2], rr, 1e-5 * rr);
+  EXPECT_NEAR(in_float[1] + in_float[3], rz, 1e-5 * rr);
+}
+
+TEST(PcgPasses, HaveTheSameBitsOnEveryInstructionSet)
+{
+  for (const InstructionSet set : instructionSets())
+  {
+    EXPECT_EQ(runPasses<float>(set), runPasses<float>(InstructionSet::baseline)) << name(set);
+    EXPECT_EQ(runPasses<double>(set), runPasses<double>(InstructionSet::baseline)) << name(set);
+  }
+}
+
+}  // namespace
+}  // namespace soft_tissue
