@@ -142,6 +142,7 @@ TEST_P(ForceBalance, ToolFeelsTheOppositeOfWhatTheNodesFeel)
   const Descent descent(scene);
   Snapshot before, after;
   scene.fillSnapshot(after);
+  double worst_force = 0.0, worst_moment = 0.0;
   constexpr int kSteps = 12;
   for (int k = 1; k <= kSteps; ++k)
   {
@@ -155,9 +156,18 @@ TEST_P(ForceBalance, ToolFeelsTheOppositeOfWhatTheNodesFeel)
         twin.onNodes(before.tissues[0].positions, before.tools[0].X_WT, after.tissues[0].positions,
                      after.tools[0].X_WT, scene.config().time_step_s);
     const Load tool = loadOn(after.tools[0]);
-    EXPECT_LE((tool.force + nodes.force).norm(), 1e-9 * nodes.size) << "step " << k;
-    EXPECT_LE((tool.moment + nodes.moment).norm(), 1e-9 * nodes.size * kBlockTop) << "step " << k;
+    const double force = (tool.force + nodes.force).norm();
+    const double moment = (tool.moment + nodes.moment).norm();
+    EXPECT_LE(force, 1e-9 * nodes.size) << "step " << k;
+    EXPECT_LE(moment, 1e-9 * nodes.size * kBlockTop) << "step " << k;
+    if (nodes.size > 0.0)
+    {
+      worst_force = std::max(worst_force, force / nodes.size);
+      worst_moment = std::max(worst_moment, moment / (nodes.size * kBlockTop));
+    }
   }
+  std::printf("  tool against nodes: force off by at most %.1e, moment %.1e\n", worst_force,
+              worst_moment);
   EXPECT_GT(after.tools[0].wrench_W.force.z(), 0.05);
 }
 
@@ -214,12 +224,17 @@ TEST_P(ForceBalance, HeldToolCarriesTheLoadOfTheEquilibrium)
       const std::string which = std::string(dynamic ? "dynamic" : "static") + ", gravity " +
                                 testing::PrintToString(gravity);
       EXPECT_TRUE(snapshot.report.converged) << which << ": " << snapshot.report.residual;
+      std::printf("  %s: %.4f N, tool against support and weight off by %.1e\n", which.c_str(),
+                  tool.force.norm(),
+                  (support.force + weight.force - tool.force).norm() / tool.size);
       EXPECT_GT(tool.force.z(), 0.03) << which;
       EXPECT_LT((support.force + weight.force - tool.force).norm(), 1e-4 * tool.size) << which;
       EXPECT_LT((support.moment + weight.moment - tool.moment).norm(), 1e-4 * tool.size * kBlockTop)
           << which;
       tools[dynamic ? 1 : 0] = tool;
     }
+    std::printf("  dynamic against static: off by %.1e\n",
+                (tools[1].force - tools[0].force).norm() / tools[0].size);
     if (!std::holds_alternative<BoxShape>(press().shape))
     {
       EXPECT_LT((tools[1].force - tools[0].force).norm(), 1e-5 * tools[0].size) << gravity;
@@ -254,6 +269,8 @@ TEST_P(LyingTissue, PressesItsTableWithItsWeight)
   scene.fillSnapshot(snapshot);
   const Load weight = TissueForces(scene).weight(snapshot.tissues[0].positions);
   const Load tool = loadOn(snapshot.tools[0]);
+  std::printf("  %.4f N, off the weight by %.1e\n", tool.force.norm(),
+              (tool.force - weight.force).norm() / weight.size);
   EXPECT_NEAR(weight.force.z(), -9.81 * 1000.0 * 0.06 * 0.06 * kBlockTop, 1e-9);
   EXPECT_LT((tool.force - weight.force).norm(), 1e-4 * weight.size);
   EXPECT_LT((tool.moment - weight.moment).norm(), 1e-4 * weight.size * kBlockTop);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "soft_tissue_sim/contact/sample_sums.h"
 #include "support/contact_scene.h"
 
@@ -27,6 +29,12 @@ double punchForce(const ToolContactOptions& options, int n, int tool_sign)
   }
   return force;
 }
+
+void print(const ToolContactOptions& options, const char* what, int n, double force, double exact)
+{
+  std::printf("  %-27s %s, %2d x %2d x 2 cells: %.5f N, exact %.5f N (%+.2f %%)\n",
+              nameOf(options).c_str(), what, n, n, force, exact, 100.0 * (force / exact - 1.0));
+}
 }  // namespace
 
 // The bottom of the punch is at depth d, its walls from 0 to d; all are pushed up.
@@ -38,7 +46,9 @@ TEST(FlatPunch, IsPushedOutByStiffnessTimesDepthTimesArea)
   {
     // The walls reach only a fraction of their triangles deep: points see them coarsely.
     const double tolerance = options.segments ? 0.05 : 0.15;
-    EXPECT_NEAR(punchForce(options, 16, 1), exact, tolerance * exact) << nameOf(options);
+    const double force = punchForce(options, 16, 1);
+    print(options, "punch in tissue", 16, force, exact);
+    EXPECT_NEAR(force, exact, tolerance * exact) << nameOf(options);
   }
 }
 
@@ -49,8 +59,12 @@ TEST(FlatPunch, PushesTissueDownAndConvergesWithItsMesh)
   for (const ToolContactOptions& options : contactModels(kStiffness))
   {
     const double exact = 0.5 * kStiffness * kPressed * width * width;
-    EXPECT_NEAR(punchForce(options, 12, -1), exact, 0.35 * exact) << nameOf(options);
-    EXPECT_NEAR(punchForce(options, 48, -1), exact, 0.05 * exact) << nameOf(options);
+    const double coarse = punchForce(options, 12, -1);
+    const double fine = punchForce(options, 48, -1);
+    print(options, "tissue in punch", 12, coarse, exact);
+    print(options, "tissue in punch", 48, fine, exact);
+    EXPECT_NEAR(coarse, exact, 0.35 * exact) << nameOf(options);
+    EXPECT_NEAR(fine, exact, 0.05 * exact) << nameOf(options);
   }
 }
 
