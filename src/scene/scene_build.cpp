@@ -8,9 +8,6 @@ namespace soft_tissue
 {
 namespace
 {
-/** Contact stiffness when the scene leaves it to us, in Young's moduli per inner radius of the
- * tool. */
-constexpr double kAutoStiffness = 20.0;
 /** A tool may start touching, but not with more of its inner radius than this inside tissue. */
 constexpr double kDeepStart = 0.5;
 /** Static scenes up to this size are solved directly where the scene leaves it to us. */

@@ -60,7 +60,9 @@ const Section<ContactConfig>& contactSection()
                     "edges.")
           .optional("stiffness_pa_per_m", &ContactConfig::stiffness_pa_per_m,
                     maybe(number(1.0, 1e15, Ends::closed), "auto", true),
-                    "Contact pressure per depth; auto: from the tissue's stiffness and size.")
+                    "Contact pressure per depth; auto: " + shortest(kAutoStiffness) +
+                        " E / R, E being the tissue's Young's modulus and R the radius of the "
+                        "largest ball inside the tool.")
           .optional("friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
                     "Coulomb coefficient.")
           .notAvailable("max_penetration_m", "Depth that must not be exceeded.");

@@ -159,12 +159,16 @@ enum class Response
   segment,
 };
 
+/** Contact stiffness that a scene leaves to us, in the tissue's Young's modulus over the tool's
+ * inner radius. */
+constexpr double kAutoStiffness = 20.0;
+
 struct ContactConfig
 {
   std::string tissue;
   std::string tool;
   Response response = Response::segment;
-  std::optional<double> stiffness_pa_per_m;  ///< empty: chosen from tissue and tool
+  std::optional<double> stiffness_pa_per_m;  ///< empty: kAutoStiffness
   double friction = 0.0;                     ///< Coulomb coefficient
 };
 

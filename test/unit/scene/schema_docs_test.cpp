@@ -44,7 +44,8 @@ TEST(SchemaDocsTest, RowsTellTypeUnitRangeDefaultAndMeaning)
             "| `time_step_s` | number | s | in (0, 1] | 0.005 | Simulated time of one step. |");
   EXPECT_EQ(row("contact", "stiffness_pa_per_m"),
             "| `stiffness_pa_per_m` | number or auto | Pa/m | in [1, 1e+15] | auto | Contact "
-            "pressure per depth; auto: from the tissue's stiffness and size. |");
+            "pressure per depth; auto: 20 E / R, E being the tissue's Young's modulus and R the "
+            "radius of the largest ball inside the tool. |");
   EXPECT_EQ(row("capsule", "radius_m"),
             "| `radius_m` | number | m | in (0, 10) | **required** | Radius of the ball. |");
   EXPECT_EQ(row("tool", "pose_source"),
