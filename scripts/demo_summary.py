@@ -42,23 +42,32 @@ def print_map(found):
     print_row("strongest beside the nodule", "%.3f N" % found["strongest_elsewhere"]["peak_n"])
 
 
-def read_live(path):
-    """Real-time factors and step times while in contact, and how many stats there were."""
-    with open(path, newline="") as stream:
-        rows = [row for row in csv.DictReader(stream) if row.get("field.state_hash")]
-    contact = [row for row in rows if int(row["field.contacts"]) > 0]
-    factors = [float(row["field.real_time_factor"]) for row in rows]
-    return factors, [float(row["field.step_ms"]) for row in contact]
+def read_stats(path):
+    """The SimStats of a bag."""
+    import rosbag
+    with rosbag.Bag(path) as bag:
+        return [message for topic, message, _ in bag.read_messages() if topic.endswith("/stats")]
 
 
-def print_live(path):
-    factors, contact_ms = read_live(path)
-    if not factors or not contact_ms:
+def marker_rate(path):
+    """The last mean rate that rostopic hz wrote, in Hz."""
+    with open(path) as stream:
+        return float([line.split()[-1] for line in stream if "average rate" in line][-1])
+
+
+def print_live(title, path, time_step_s):
+    """How a run held to real time kept up, and how fast its steps were: a factor of 1.00 means it did keep up."""
+    stats = read_stats(path)
+    contact_ms = [message.step_ms for message in stats if message.contacts > 0]
+    if not contact_ms:
         sys.exit("demo_summary.py: %s: no step in contact" % path)
-    print("live, with rviz on this machine")
-    print_row("real-time factor", "%.2f median, %.2f least" % (statistics.median(factors), min(factors)))
-    print_row("step in contact", "%.2f ms median, %.2f ms longest" %
-              (statistics.median(contact_ms), max(contact_ms)))
+    factors = [message.real_time_factor for message in stats]
+    step_ms = 1e3 * time_step_s
+    print(title)
+    print_row("real-time factor, at most 1", "%.2f median, %.2f least" % (statistics.median(factors), min(factors)))
+    print_row("step in contact", "%.2f ms mean, %.2f ms median, %.2f ms longest, of %g ms" %
+              (statistics.mean(contact_ms), statistics.median(contact_ms), max(contact_ms), step_ms))
+    print_row("real time over mean step", "%.2f" % (step_ms / statistics.mean(contact_ms)))
 
 
 def read_json(folder, name):
@@ -73,9 +82,15 @@ def main():
     for title, run in runs.items():
         print_run(title, run)
     print_map(read_json(folder, "palpation_map.json"))
-    live = os.path.join(folder, "live_stats.csv")
-    if os.path.exists(live):
-        print_live(live)
+    time_step_s = next(iter(runs.values()))["time_step_s"]
+    live = {"live_markers.bag": "live, markers to a subscriber that counts them",
+            "live_rviz.bag": "live, markers to it and to rviz, which shares the processors"}
+    for name, title in live.items():
+        path = os.path.join(folder, name)
+        if os.path.exists(path):
+            print_live(title, path, time_step_s)
+    if os.path.exists(os.path.join(folder, "logs", "markers.log")):
+        print_row("markers", "%.1f arrays a second" % marker_rate(os.path.join(folder, "logs", "markers.log")))
     print("in %s: %s" % (folder, ", ".join(sorted(
         name for name in os.listdir(folder) if os.path.isfile(os.path.join(folder, name))))))
     for title, run in runs.items():

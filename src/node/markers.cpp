@@ -22,15 +22,16 @@ using visualization_msgs::Marker;
 constexpr double kFixedNodeSize = 0.002;               // m
 constexpr double kFieldNodeSize = 0.0012;              // m
 constexpr double kLongestContact = 0.015;              // m
+constexpr double kToolOpacity = 0.35;                  // the arrows of its contacts show through
 constexpr double kSmallestDisplacementScale = 1.0e-3;  // m: an idle tissue is not painted by noise
 
-std_msgs::ColorRGBA rgb(double r, double g, double b)
+std_msgs::ColorRGBA rgb(double r, double g, double b, double opacity = 1.0)
 {
   std_msgs::ColorRGBA colour;
   colour.r = static_cast<float>(r);
   colour.g = static_cast<float>(g);
   colour.b = static_cast<float>(b);
-  colour.a = 1.0F;
+  colour.a = static_cast<float>(opacity);
   return colour;
 }
 
@@ -137,7 +138,7 @@ void addContactArrows(const std::string& ns, const std::vector<ContactPoint>& co
     {
       const ContactPoint& contact = contacts[order[i]];
       const Vec3 tip = contact.position_W + kLongestContact / largest * contact.force_W;
-      markers.push_back(arrow(ns, contact.position_W, tip, 3.0e-4));
+      markers.push_back(arrow(ns, contact.position_W, tip, 4.0e-4));
       markers.back().color = rgb(0.2, 0.9, 0.3);
     }
     else
@@ -185,7 +186,8 @@ MarkerBuilder::MarkerBuilder(const SceneInfo& info, const MarkerOptions& options
     {
       for (const Index node : triangle)
       {
-        addCorner(marker, tool.surface.nodes[node], lit(rgb(0.75, 0.78, 0.82), normals[node]));
+        addCorner(marker, tool.surface.nodes[node],
+                  lit(rgb(0.75, 0.78, 0.82, kToolOpacity), normals[node]));
       }
     }
     tools_.push_back(marker);
