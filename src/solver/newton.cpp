@@ -231,6 +231,7 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
   const std::size_t n = x.size();
   descent_.resize(n);
   trial_.resize(n);
+  trial_gradient_.resize(n);
   report.residual = gradient(terms, x, gradient_, seconds);
   Potential potential;
   double accuracy = kFirstAccuracy;
