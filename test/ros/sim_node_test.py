@@ -63,16 +63,18 @@ class SimNodeTest(unittest.TestCase):
         force = [0.0, 0.0, 0.0]
         moment = [0.0, 0.0, 0.0]
         self.assertGreater(len(contacts.points), 0)
+        pushes = []
         for point, f, normal in zip(contacts.points, contacts.forces, contacts.normals):
             r = (point.x - origin.x, point.y - origin.y, point.z - origin.z)
-            pushing = f.x * normal.x + f.y * normal.y + f.z * normal.z
-            self.assertGreaterEqual(pushing, 0.0)  # a point that just touches pushes with nothing
+            pushes.append(f.x * normal.x + f.y * normal.y + f.z * normal.z)
             for axis, value in enumerate((f.x, f.y, f.z)):
                 force[axis] += value
             moment[0] += r[1] * f.z - r[2] * f.y
             moment[1] += r[2] * f.x - r[0] * f.z
             moment[2] += r[0] * f.y - r[1] * f.x
         self.assertGreater(force[2], 0.02)
+        # Where an edge enters the tool its depth is zero but for rounding errors of either sign.
+        self.assertGreater(min(pushes), -1e-12 * force[2])
         wrench = found["probe/spatial/measured_cf"].wrench
         for axis, name in enumerate("xyz"):
             self.assertAlmostEqual(force[axis], getattr(wrench.force, name), places=9)
