@@ -18,7 +18,6 @@ class PoseTrack
   explicit PoseTrack(const std::vector<PoseKeyframe>& keyframes);
 
   Pose at(double time_s) const;
-  double lastTime() const { return times_.back(); }
 
  private:
   std::vector<double> times_;
