@@ -16,7 +16,15 @@ int main(int argc, char** argv)
     const NodeParams params = readNodeParams(private_node);
     const int processors = static_cast<int>(std::thread::hardware_concurrency());
     soft_tissue::setThreadCount(params.threads > 0 ? params.threads : processors);
-    SimNode node(private_node, params, buildScene(loadConfig(params.scene)));
+    soft_tissue::Scene scene = buildScene(loadConfig(params.scene));
+    for (const soft_tissue::TissueInfo& tissue : scene.tissues())
+    {
+      for (const std::string& remark : tissue.remarks)
+      {
+        ROS_WARN_STREAM("tissue '" << tissue.name << "': " << remark);
+      }
+    }
+    SimNode node(private_node, params, std::move(scene));
     ROS_INFO_STREAM("simulating " << params.scene);
     ros::spin();
     return node.failed() ? 1 : 0;

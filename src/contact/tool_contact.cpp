@@ -104,7 +104,7 @@ class ToolContact::Impl
 void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
                                   bool refresh)
 {
-  const ScopedTimer timer(times_.detect);
+  Timer timer;
   constexpr double kMarginOfRadius = 0.5;
   body_.assign(bodyIn(x), bodyIn(x) + tissue_.node_count);
   const double last_motion = start_.empty() ? 0.0 : largestMotion(start_, body_);
@@ -121,12 +121,6 @@ void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, cons
   margin_ =
       kMarginOfRadius * tool_.innerRadius() + (std::isfinite(last_motion) ? last_motion : 0.0);
   refresh_field_ = refresh;
-  if (refresh && !options_.lazy_field)
-  {
-    const ScopedTimer field_timer(times_.field);
-    field_->march(start_);
-    refresh_field_ = false;
-  }
   Box3 reach = swept_;
   reach.grow(margin_);
   selection_.clear();
@@ -134,6 +128,13 @@ void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, cons
   {
     tool_in_tissue_.place(X_WT);
     select();
+  }
+  times_.detect += timer.restart();
+  if (refresh && !options_.lazy_field)
+  {
+    field_->march(start_);
+    refresh_field_ = false;
+    times_.field += timer.seconds();
   }
 }
 

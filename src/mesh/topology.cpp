@@ -150,27 +150,6 @@ Adjacency nodeNeighbours(Index node_count, const std::vector<Tet>& tets)
   return rows;
 }
 
-std::vector<std::array<Index, 4>> tetNeighbours(const std::vector<Tet>& tets)
-{
-  Index node_count = 0;
-  for (const Tet& tet : tets)
-  {
-    node_count = std::max(node_count, *std::max_element(tet.begin(), tet.end()) + 1);
-  }
-  const Adjacency faces = groupTetFaces(node_count, tets);
-  std::vector<std::array<Index, 4>> neighbours(tets.size(), {-1, -1, -1, -1});
-  for (Index row = 0; row < faces.size(); ++row)
-  {
-    const Index* face = faces.begin(row);
-    if (faces.end(row) - face == 2)
-    {
-      neighbours[face[0] / 4][face[0] % 4] = face[1] / 4;
-      neighbours[face[1] / 4][face[1] % 4] = face[0] / 4;
-    }
-  }
-  return neighbours;
-}
-
 BoundarySurface extractBoundary(Index node_count, const std::vector<Tet>& tets)
 {
   BoundarySurface out;

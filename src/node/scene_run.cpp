@@ -185,6 +185,13 @@ void runScene(const RunOptions& options)
   }
   const std::uint64_t steps = stepCount(options, config, poses);
   soft_tissue::Scene scene = buildScene(config);
+  for (const soft_tissue::TissueInfo& tissue : scene.tissues())
+  {
+    for (const std::string& remark : tissue.remarks)
+    {
+      std::fprintf(stderr, "note: %s\n", remark.c_str());
+    }
+  }
   const SceneInfo info(scene);
   Recorders recorders{RunSummary(scene), nullptr, nullptr};
   if (!options.bag_out.empty())

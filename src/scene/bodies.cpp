@@ -94,14 +94,30 @@ std::shared_ptr<const RigidShape> makeShape(const ShapeGeometry& geometry, const
   }
   return makeMeshShape(mesh.nodes, mesh.triangles, where + " (" + shape.mesh.file + ")");
 }
+
+/** What the mesh in use has otherwise than its file, and what of it is of no use: a line each. */
+std::vector<std::string> remarksOn(const std::string& file, const LoadReport& report)
+{
+  std::vector<std::string> remarks;
+  if (report.ignored_elements > 0)
+  {
+    remarks.push_back(file + ": " + std::to_string(report.ignored_elements) +
+                      " elements that are not tets left out");
+  }
+  for (const std::string& warning : report.warnings)
+  {
+    remarks.push_back(file + ": " + warning);
+  }
+  return remarks;
+}
 }  // namespace
 
 TissueModel makeTissue(const TissueConfig& config, const std::string& where)
 {
   TissueModel model;
   LoadedTetMesh loaded = loadTetMesh(config.mesh.file, config.mesh.metres_per_unit);
-  model.load_report = std::move(loaded.report);
   model.info.name = config.name;
+  model.info.remarks = remarksOn(config.mesh.file, loaded.report);
   model.info.rest = std::move(loaded.mesh);
   TetMesh& rest = model.info.rest;
   const Pose X_WB = config.pose.toPose();

@@ -14,7 +14,6 @@ namespace soft_tissue
 struct TissueModel
 {
   TissueInfo info;
-  LoadReport load_report;
   std::vector<TetStiffnessParameters> stiffness;  ///< per tet
   std::vector<double> densities;                  ///< per tet, kg/m^3
 };

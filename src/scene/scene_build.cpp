@@ -150,10 +150,6 @@ void Scene::Impl::addContact(std::size_t index)
   const TissueInfo& info = tissue_info_[contact.tissue];
   Tissue& tissue = tissues_[contact.tissue];
   const RigidBodyShape& shape = tools_[contact.tool].shape;
-  if (tissue.tet_neighbours.empty())
-  {
-    tissue.tet_neighbours = tetNeighbours(info.rest.tets);
-  }
   ToolContactOptions options;
   options.segments = contact_config.response == Response::segment;
   options.closest_feature = tissue_config.field.depth == DepthKind::closest_feature;
@@ -164,7 +160,6 @@ void Scene::Impl::addContact(std::size_t index)
   TissueBody body;
   body.tets = &info.rest.tets;
   body.surface = &info.surface;
-  body.tet_neighbours = &tissue.tet_neighbours;
   body.first_node = tissue.first_node;
   body.node_count = tissue.node_count;
   contact.term = std::make_unique<ToolContact>(

@@ -51,7 +51,6 @@ class Scene::Impl
     Index first_node = 0;
     Index node_count = 0;
     Adjacency neighbours;
-    std::vector<std::array<Index, 4>> tet_neighbours;
     std::unique_ptr<TetElasticity> elasticity;
   };
   struct Contact

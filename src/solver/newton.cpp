@@ -16,6 +16,9 @@ constexpr int kMaxBacktracks = 40;
 /** Rounding errors of a potential, as a share of the sum of its terms: materials subtract terms of
  * the size of their stiffness. */
 constexpr double kNoise = 1e-9;
+/** A full step that leaves this share of the forces unbalanced leads where it should, whatever
+ * rounding makes of the potential. */
+constexpr double kBalances = 0.5;
 /** Full steps are lengthened where more than this share of slope times step is gained. */
 constexpr double kFallsAhead = 0.75;
 constexpr double kLongestStep = 64.0;
@@ -196,11 +199,16 @@ bool NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Point
     {
       break;
     }
-    // Too close to the bottom for the values to tell: the slopes still can.
-    if (potential.value <= start.value + kNoise * start.magnitude)
+    // Close to the bottom values drown in rounding errors: what slopes say then counts.
+    const bool level = potential.value <= start.value + kNoise * start.magnitude;
+    if (level || step == 1.0)
     {
       gradient(terms, trial_, trial_gradient_, seconds);
-      if (dot(trial_gradient_, direction_) <= (2.0 * kSufficientDecrease - 1.0) * slope)
+      const bool flatter =
+          dot(trial_gradient_, direction_) <= (2.0 * kSufficientDecrease - 1.0) * slope;
+      const bool balanced = dot(trial_gradient_, trial_gradient_) <=
+                            kBalances * kBalances * dot(gradient_, gradient_);
+      if (flatter && (level || balanced))
       {
         break;
       }

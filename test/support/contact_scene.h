@@ -117,7 +117,6 @@ struct ContactScene
 {
   TetMesh mesh;
   BoundarySurface surface;
-  std::vector<std::array<Index, 4>> tet_neighbours;
   Adjacency node_neighbours;
   RigidBodyShape tool;
   std::unique_ptr<ToolContact> contact;
@@ -127,11 +126,10 @@ struct ContactScene
                const ToolContactOptions& options)
       : mesh(tissue),
         surface(extractBoundary(Index(mesh.nodes.size()), mesh.tets)),
-        tet_neighbours(tetNeighbours(mesh.tets)),
         node_neighbours(nodeNeighbours(Index(mesh.nodes.size()), mesh.tets))
   {
     tool.add(std::move(shape), Pose::Identity());
-    const TissueBody body = {&mesh.tets, &surface, &tet_neighbours, 0, Index(mesh.nodes.size())};
+    const TissueBody body = {&mesh.tets, &surface, 0, Index(mesh.nodes.size())};
     contact = std::make_unique<ToolContact>(
         body, tool, std::make_unique<ExhaustiveField>(surface, &marches), options);
   }

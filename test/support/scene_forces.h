@@ -95,7 +95,6 @@ class ContactTwin
       : info_(scene.tissues()[0])
   {
     const auto count = static_cast<Index>(info_.rest.nodes.size());
-    tet_neighbours_ = tetNeighbours(info_.rest.tets);
     node_neighbours_ = nodeNeighbours(count, info_.rest.tets);
     RigidBodyShape tool;
     tool.add(std::move(shape), Pose::Identity());
@@ -104,7 +103,7 @@ class ContactTwin
     options.segments = config.response == Response::segment;
     options.stiffness_pa_per_m = config.stiffness_pa_per_m.value();
     contact_ = std::make_unique<ToolContact>(
-        TissueBody{&info_.rest.tets, &info_.surface, &tet_neighbours_, 0, count}, tool,
+        TissueBody{&info_.rest.tets, &info_.surface, 0, count}, tool,
         makeDistanceField(scene.config().tissues[0].field.method,
                           {&info_.rest.tets, &info_.surface, &node_neighbours_}),
         options);
@@ -127,7 +126,6 @@ class ContactTwin
 
  private:
   const TissueInfo& info_;
-  std::vector<std::array<Index, 4>> tet_neighbours_;
   Adjacency node_neighbours_;
   std::unique_ptr<ToolContact> contact_;
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "soft_tissue_sim/mesh/topology.h"
@@ -12,7 +11,6 @@ struct TissueBody
 {
   const std::vector<Tet>* tets = nullptr;
   const BoundarySurface* surface = nullptr;
-  const std::vector<std::array<Index, 4>>* tet_neighbours = nullptr;
   Index first_node = 0;  ///< row of the body's node 0 in the positions of the whole scene
   Index node_count = 0;
 };

@@ -24,13 +24,6 @@ Adjacency nodeNeighbours(Index node_count, const std::vector<Tet>& tets);
 /** Tets that contain each node. */
 Adjacency nodeTets(Index node_count, const std::vector<Tet>& tets);
 
-/**
- * Across each tet's four faces, face k being the one opposite to the tet's node k:
- * the tet on its other side, or -1 on the boundary. A face shared by three or more tets
- * (non-manifold) has no unique other side: -1.
- */
-std::vector<std::array<Index, 4>> tetNeighbours(const std::vector<Tet>& tets);
-
 /** The boundary of a tet mesh: faces that belong to exactly one tet. Node numbers are the tet
  * mesh's. */
 struct BoundarySurface

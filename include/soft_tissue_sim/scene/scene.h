@@ -69,6 +69,7 @@ struct TissueInfo
   TetMesh rest;  ///< rest state, world frame
   BoundarySurface surface;
   std::vector<Index> fixed_nodes;
+  std::vector<std::string> remarks;  ///< what reading the mesh turned, left out or found odd
 };
 
 struct TissueState

@@ -199,8 +199,7 @@ TEST(ToolContactDetection, WorksInRowsOfALargerScene)
   ContactScene scene(tissue(), makeSphere(0.004), contactModels(1e6)[3]);
   scene.begin(scene.mesh.nodes, at(kTop));
   const double wanted = scene.contact->value(scene.mesh.nodes);
-  const TissueBody body = {&scene.mesh.tets, &scene.surface, &scene.tet_neighbours, 2,
-                           Index(scene.mesh.nodes.size())};
+  const TissueBody body = {&scene.mesh.tets, &scene.surface, 2, Index(scene.mesh.nodes.size())};
   ToolContact contact(body, scene.tool, std::make_unique<ExhaustiveField>(scene.surface),
                       contactModels(1e6)[3]);
   Points x(2, Vec3::Zero());

@@ -131,5 +131,25 @@ TEST_P(FailedStep, NeverLetsOutWhatIsNotANumber)
   }
 }
 
+// Without gravity nothing but rounding errors is left of the forces in the end.
+TEST(FailedStep, IsNoneOnTheWayBackToRest)
+{
+  SceneConfig config = lobeScene();
+  fixBelow(config, 0.001);
+  PoseConfig above;
+  above.position_m = kLobeSpot + Vec3(0.0, 0.0, kLobeTop + kRadius + 0.0005);
+  addTool(config, SphereShape{kRadius}, above, Response::segment);
+  Scene scene(config);
+  const Pose start = above.toPose();
+  for (int n = 1; n <= 300; ++n)
+  {
+    scene.setToolTarget(0, raised(start, -0.005 * std::min(1.0, std::max(0.0, 2.0 - 0.1 * n))));
+    const StepReport& report = scene.step();
+    ASSERT_FALSE(report.held) << n;
+    ASSERT_EQ(report.halvings, 0) << n;
+    ASSERT_TRUE(report.converged) << n << ": " << report.residual;
+  }
+}
+
 }  // namespace
 }  // namespace soft_tissue
