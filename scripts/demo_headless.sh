@@ -29,7 +29,8 @@ live_on_virtual_display()
 
   in_background "$logs/launch.log" roslaunch -p "$port" soft_tissue_sim demo.launch rviz:=false "$@"
   wait_for 60 grep -q "simulating" "$logs/launch.log" || fail "the node did not start: see $logs/launch.log"
-  in_background "$logs/markers.log" rostopic hz "$node/markers"
+  # Unbuffered: what is written to a file is else seen a minute later.
+  in_background "$logs/markers.log" env PYTHONUNBUFFERED=1 rostopic hz "$node/markers"
   wait_for 60 grep -q "average rate" "$logs/markers.log" || fail "no markers came: see $logs/markers.log"
   echo "with markers counted for $seconds s"
   record "$out/live_markers.bag" "$seconds"
