@@ -41,7 +41,7 @@ void TopicInput::onCommand(const geometry_msgs::PoseStamped::ConstPtr& command)
   const Resolved resolved = resolve(*command, wait_s_ > 0.0);
   if (resolved != Resolved::refused)
   {
-    order_.accept(command->header.stamp);
+    order_.accept(command->header.stamp, ros::Time::now());
   }
   if (resolved == Resolved::not_yet)
   {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The node under somebody else's /clock."""
 import contextlib
+import glob
 import math
 import os
 import signal
@@ -18,6 +19,15 @@ from sim_client import NODE, SimClient, wait_until
 
 STEP_S = 0.005
 ABOVE = (0.0, 0.0, 0.05)
+
+
+def thread_states(pid):
+    """What the threads of a process do, as the letters of proc(5); a signal to stop takes a while."""
+    states = set()
+    for path in glob.glob("/proc/%d/task/*/stat" % pid):
+        with open(path) as stat:
+            states.add(stat.read().rpartition(")")[2].split()[0])
+    return states
 
 
 class ForeignClockTest(unittest.TestCase):
@@ -92,6 +102,7 @@ class ForeignClockTest(unittest.TestCase):
         _, _, pid = xmlrpc.client.ServerProxy(uri).getPid(rospy.get_name())
         os.kill(pid, signal.SIGSTOP)
         try:
+            wait_until(lambda: thread_states(pid) == {"T"}, "every thread of the node stops")
             yield
         finally:
             os.kill(pid, signal.SIGCONT)

@@ -3,6 +3,8 @@
 #include <geometry_msgs/Pose.h>
 #include <ros/time.h>
 
+#include <algorithm>
+
 namespace soft_tissue_sim
 {
 /** Why a pose command is not obeyed. */
@@ -30,7 +32,11 @@ class StampOrder
  public:
   /** Zero stamps mean "now" and are always in order. */
   bool accepts(const ros::Time& stamp) const { return stamp.isZero() || stamp >= last_; }
-  void accept(const ros::Time& stamp) { last_ = stamp.isZero() ? last_ : stamp; }
+  /** A stamp ahead of the clock counts as `now`: it must not bar those that come in time after it. */
+  void accept(const ros::Time& stamp, const ros::Time& now)
+  {
+    last_ = stamp.isZero() ? last_ : std::min(stamp, now);
+  }
   /** A new stream may start anywhere. */
   void restart() { last_ = ros::Time(); }
 

@@ -63,7 +63,7 @@ TEST(StampOrder, neverGoesBackUnlessRestarted)
 {
   StampOrder order;
   EXPECT_TRUE(order.accepts(ros::Time(5.0)));
-  order.accept(ros::Time(5.0));
+  order.accept(ros::Time(5.0), ros::Time(5.1));
   EXPECT_TRUE(order.accepts(ros::Time(5.0)));
   EXPECT_TRUE(order.accepts(ros::Time(6.0)));
   EXPECT_FALSE(order.accepts(ros::Time(4.999)));
@@ -74,10 +74,18 @@ TEST(StampOrder, neverGoesBackUnlessRestarted)
 TEST(StampOrder, zeroMeansNow)
 {
   StampOrder order;
-  order.accept(ros::Time(5.0));
+  order.accept(ros::Time(5.0), ros::Time(5.1));
   EXPECT_TRUE(order.accepts(ros::Time()));
-  order.accept(ros::Time());
+  order.accept(ros::Time(), ros::Time(5.2));
   EXPECT_FALSE(order.accepts(ros::Time(4.0)));
+}
+
+TEST(StampOrder, aStampAheadOfTheClockBarsNothingThatComesInTime)
+{
+  StampOrder order;
+  order.accept(ros::Time(500.0), ros::Time(5.0));
+  EXPECT_TRUE(order.accepts(ros::Time(5.0)));
+  EXPECT_FALSE(order.accepts(ros::Time(4.999)));
 }
 
 TEST(RejectionText, isDifferentForEach)
