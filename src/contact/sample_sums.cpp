@@ -9,7 +9,7 @@ namespace soft_tissue
 {
 namespace
 {
-void addScaledBlock(BlockMatrix& hessian, Index row, Index column, double scale, const Mat3& gg)
+void addBlock(BlockMatrix& hessian, Index row, Index column, const Mat3& b)
 {
   const Index position = hessian.find(row, column);
   if (position < 0)
@@ -20,7 +20,24 @@ void addScaledBlock(BlockMatrix& hessian, Index row, Index column, double scale,
   double* block = hessian.block(position);
   for (int i = 0; i < 9; ++i)
   {
-    block[i] += scale * gg.data()[i];  // gg is symmetric: either storage order
+    block[i] += b.data()[i];
+  }
+}
+
+/** hessian += kappa area block(i, j) for the pairs of the sample's nodes; the block is symmetric in
+ * that (j, i) has its transpose. */
+template <typename Block>
+void addPairs(const ContactSample& s, BlockMatrix& hessian, const Block& block)
+{
+  for (int i = 0; i < s.count; ++i)
+  {
+    for (int j = 0; j < s.count; ++j)
+    {
+      if (s.node[i] <= s.node[j])
+      {
+        addBlock(hessian, s.node[i], s.node[j], s.stiffness_area * block(i, j));
+      }
+    }
   }
 }
 }  // namespace
@@ -47,27 +64,25 @@ void addContactGradient(const std::vector<ContactSample>& samples, Points& gradi
   }
 }
 
-void addContactHessian(const std::vector<ContactSample>& samples, BlockMatrix& hessian)
+void addLinearStiffness(const ContactSample& s, BlockMatrix& hessian)
 {
-  for (const ContactSample& s : samples)
-  {
-    if (s.stiffness_area == 0.0)
-    {
-      continue;
-    }
-    const Mat3 gg = s.stiffness_area * s.gradient * s.gradient.transpose();
-    for (int i = 0; i < s.count; ++i)
-    {
-      for (int j = 0; j < s.count; ++j)
-      {
-        const double scale = s.coefficient[i] * s.coefficient[j];
-        if (scale != 0.0 && s.node[i] <= s.node[j])
-        {
-          addScaledBlock(hessian, s.node[i], s.node[j], scale, gg);
-        }
-      }
-    }
-  }
+  const Mat3 gg = s.gradient * s.gradient.transpose();
+  addPairs(s, hessian,
+           [&](int i, int j) -> Mat3 { return s.coefficient[i] * s.coefficient[j] * gg; });
+}
+
+void addStiffness(const ContactSample& s, const DepthCurvature& curvature, BlockMatrix& hessian)
+{
+  const Vec3& g = s.gradient;
+  const auto& c = s.coefficient;
+  const auto& b = curvature.turn;
+  const Mat3 gg = g * g.transpose();
+  const Mat3 slide = gg + curvature.bend;
+  const double turned = curvature.distance ? s.depth * s.depth : 0.0;
+  addPairs(s, hessian, [&](int i, int j) -> Mat3 {
+    return c[i] * c[j] * slide - turned * b[i].dot(b[j]) * gg -
+           s.depth * (c[i] * b[j] * g.transpose() + c[j] * g * b[i].transpose());
+  });
 }
 
 void addToolWrench(const std::vector<ContactSample>& samples, const Vec3& reference, Vec3& force,

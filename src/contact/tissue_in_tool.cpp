@@ -127,6 +127,15 @@ bool TissueInTool::measure(const Vec3& p, double area, ContactSample& sample) co
   return sample.depth > 0.0;
 }
 
+DepthCurvature TissueInTool::curvature(const ContactSample& sample) const
+{
+  const Mat3 R_WT = X_WT_.linear();
+  DepthCurvature curvature;
+  curvature.bend =
+      -sample.depth * (R_WT * tool_.curvature(X_TW_ * sample.position) * R_WT.transpose());
+  return curvature;
+}
+
 void TissueInTool::addPoint(const Element& node, const Points& x,
                             std::vector<ContactSample>& samples) const
 {

@@ -4,6 +4,7 @@
 
 #include "soft_tissue_sim/collision/box_selection.h"
 #include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/contact/depth_curvature.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
 
 namespace soft_tissue
@@ -26,6 +27,9 @@ class TissueInTool
 
   /** Appends the samples of those elements at x, positions of the body alone, m. */
   void addSamples(const Points& x, std::vector<ContactSample>& samples) const;
+
+  /** Of one of those samples. */
+  DepthCurvature curvature(const ContactSample& sample) const;
 
  private:
   struct Element

@@ -70,6 +70,7 @@ class ToolContact::Impl
   void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
   bool active() const { return !selection_.empty(); }
   const std::vector<ContactSample>& samplesAt(const Points& x);
+  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian);
   const std::vector<double>& depth() const;
   ContactTimes takeTimes() { return std::exchange(times_, ContactTimes()); }
 
@@ -206,6 +207,27 @@ void ToolContact::Impl::collect()
   times_.respond += timer.seconds();
 }
 
+// Clip points are left out: what they add is what the quadrature is off, and small.
+void ToolContact::Impl::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
+{
+  for (const ContactSample& sample : samplesAt(x))
+  {
+    if (sample.stiffness_area == 0.0)
+    {
+      continue;
+    }
+    if (curvature == Curvature::positive)
+    {
+      addLinearStiffness(sample, hessian);
+      continue;
+    }
+    addStiffness(sample,
+                 sample.tool_sign > 0 ? tool_in_tissue_.curvature(sample, body_)
+                                      : tissue_in_tool_.curvature(sample),
+                 hessian);
+  }
+}
+
 const std::vector<double>& ToolContact::Impl::depth() const
 {
   return field_->depth().size() == no_depth_.size() ? field_->depth() : no_depth_;
@@ -239,9 +261,9 @@ void ToolContact::addGradient(const Points& x, Points& gradient)
   addContactGradient(impl_->samplesAt(x), gradient);
 }
 
-void ToolContact::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& hessian)
+void ToolContact::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
 {
-  addContactHessian(impl_->samplesAt(x), hessian);
+  impl_->addHessian(x, curvature, hessian);
 }
 
 const std::vector<ContactSample>& ToolContact::samples(const Points& x)

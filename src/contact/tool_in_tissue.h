@@ -32,6 +32,12 @@ class ToolInTissue
   /** Appends the samples of what findHosts() found. */
   void addSamples(const Points& x, const DistanceField& field, std::vector<ContactSample>& samples);
 
+  /** Of one of those samples; x as they were taken at. */
+  DepthCurvature curvature(const ContactSample& sample, const Points& x) const
+  {
+    return depth_.curvature(sample, x);
+  }
+
  private:
   struct Host
   {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/base/parallel.h"
 
 namespace soft_tissue
 {
@@ -39,7 +40,10 @@ BlockMatrix::BlockMatrix(const Adjacency& neighbours)
 
 void BlockMatrix::setZero()
 {
-  std::fill(values_.begin(), values_.end(), 0.0);
+  constexpr Index kGrain = 16384;
+  parallelFor(static_cast<Index>(values_.size()), kGrain, [&](Index begin, Index end) {
+    std::fill(values_.begin() + begin, values_.begin() + end, 0.0);
+  });
 }
 
 Index BlockMatrix::find(Index row, Index column) const

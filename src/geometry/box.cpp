@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "feature_curvature.h"
 #include "surface_grid.h"
 
 namespace soft_tissue
@@ -29,6 +30,17 @@ class Box : public RigidShape
     int axis = 0;
     const double depth = beyond.maxCoeff(&axis);
     return {depth, side[axis] * Vec3::Unit(axis)};
+  }
+
+  Mat3 curvature(const Vec3& p) const override
+  {
+    const Vec3 outward = (p.cwiseAbs() - half_).cwiseMax(0.0);
+    if ((outward.array() > 0.0).count() < 2)
+    {
+      return Mat3::Zero();  // inside, or above a face
+    }
+    const Vec3 straight = (outward.array() == 0.0).cast<double>();
+    return aroundFeature(p - p.cwiseMax(-half_).cwiseMin(half_), straight.asDiagonal());
   }
 
   Box3 bounds() const override { return {-half_, half_}; }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feature_curvature.h"
 #include "surface_grid.h"
 
 namespace soft_tissue
@@ -113,6 +114,14 @@ class Capsule : public RigidShape
     const Vec3 from_axis = p - on_axis;
     const double norm = from_axis.norm();
     return {norm - radius_, norm > 0.0 ? Vec3(from_axis / norm) : Vec3::UnitX()};
+  }
+
+  Mat3 curvature(const Vec3& p) const override
+  {
+    const double beyond = std::abs(p.z()) - half_length_;
+    const Vec3 z = Vec3::UnitZ();
+    return beyond > 0.0 ? aroundFeature({p.x(), p.y(), beyond * (p.z() < 0.0 ? -1.0 : 1.0)}, Mat3::Zero())
+                        : aroundFeature({p.x(), p.y(), 0.0}, z * z.transpose());
   }
 
   Box3 bounds() const override

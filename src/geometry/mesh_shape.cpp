@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "closed_surface.h"
+#include "feature_curvature.h"
 #include "soft_tissue_sim/geometry/aabb_tree.h"
 #include "soft_tissue_sim/geometry/closest_point.h"
 #include "surface_grid.h"
@@ -50,6 +51,36 @@ class MeshShape : public RigidShape
     }
     const double sign = offset.dot(outward) < 0.0 ? -1.0 : 1.0;
     return {sign * length, sign / length * offset};
+  }
+
+  Mat3 curvature(const Vec3& p) const override
+  {
+    const Nearest nearest = closest(p);
+    const Vec3 offset = p - nearest.at.point;
+    if (!(offset.norm() > on_surface_))
+    {
+      return Mat3::Zero();
+    }
+    const Triangle& t = mesh_.triangles[nearest.triangle];
+    Mat3 straight = Mat3::Zero();
+    switch ((nearest.at.weights.array() > 0.0).count())
+    {
+      case 3:
+        return Mat3::Zero();
+      case 2:
+      {
+        int apex = 0;
+        nearest.at.weights.minCoeff(&apex);
+        const Vec3 along =
+            (mesh_.nodes[t[(apex + 1) % 3]] - mesh_.nodes[t[(apex + 2) % 3]]).normalized();
+        straight = along * along.transpose();
+        break;
+      }
+      default:
+        break;
+    }
+    const double sign = offset.dot(pseudoNormal(nearest)) < 0.0 ? -1.0 : 1.0;
+    return sign * aroundFeature(offset, straight);
   }
 
   Box3 bounds() const override { return tree_.bounds(); }

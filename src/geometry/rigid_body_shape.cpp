@@ -31,20 +31,40 @@ void RigidBodyShape::add(std::shared_ptr<const RigidShape> shape, const Pose& X_
   parts_.push_back({std::move(shape), X_TS, X_TS.inverse()});
 }
 
-SignedDistance RigidBodyShape::distance(const Vec3& p_T) const
+RigidBodyShape::Nearest RigidBodyShape::nearest(const Vec3& p_T) const
 {
-  SignedDistance nearest;
-  nearest.distance = std::numeric_limits<double>::infinity();
+  Nearest nearest;
+  nearest.at.distance = std::numeric_limits<double>::infinity();
   for (const Part& part : parts_)
   {
     const SignedDistance candidate = part.shape->distance(part.X_ST * p_T);
-    if (candidate.distance < nearest.distance)
+    if (candidate.distance < nearest.at.distance)
     {
-      nearest.distance = candidate.distance;
-      nearest.normal = part.X_TS.linear() * candidate.normal;
+      nearest = {&part, candidate};
     }
   }
   return nearest;
+}
+
+SignedDistance RigidBodyShape::distance(const Vec3& p_T) const
+{
+  Nearest found = nearest(p_T);
+  if (found.part != nullptr)
+  {
+    found.at.normal = found.part->X_TS.linear() * found.at.normal;
+  }
+  return found.at;
+}
+
+Mat3 RigidBodyShape::curvature(const Vec3& p_T) const
+{
+  const Part* part = nearest(p_T).part;
+  if (part == nullptr)
+  {
+    return Mat3::Zero();
+  }
+  const Mat3 R_TS = part->X_TS.linear();
+  return R_TS * part->shape->curvature(part->X_ST * p_T) * R_TS.transpose();
 }
 
 Box3 RigidBodyShape::bounds() const

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "feature_curvature.h"
 #include "surface_grid.h"
 
 namespace soft_tissue
@@ -30,6 +31,8 @@ class Sphere : public RigidShape
     const double from_centre = p.norm();
     return {from_centre - radius_, from_centre > 0.0 ? Vec3(p / from_centre) : Vec3::UnitZ()};
   }
+
+  Mat3 curvature(const Vec3& p) const override { return aroundFeature(p, Mat3::Zero()); }
 
   Box3 bounds() const override { return {Vec3::Constant(-radius_), Vec3::Constant(radius_)}; }
   bool convex() const override { return true; }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "bodies.h"
 #include "scene_impl.h"
@@ -12,6 +13,8 @@ namespace
 constexpr double kDeepStart = 0.5;
 /** Static scenes up to this size are solved directly where the scene leaves it to us. */
 constexpr Index kCholeskyStaticNodes = 60000;
+/** At a tolerance of 1, minimisations end with nodes this share of a tissue's size off. */
+constexpr double kSettled = 1e-3;
 
 std::string item(const SceneConfig& config, const char* list, std::size_t index)
 {
@@ -24,6 +27,22 @@ std::size_t find(const Configs& configs, const std::string& name)
   const auto found =
       std::find_if(configs.begin(), configs.end(), [&](const auto& c) { return c.name == name; });
   return found - configs.begin();
+}
+
+/** Length of the smallest tissue, m. */
+double smallestSize(const std::vector<TissueInfo>& tissues)
+{
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const TissueInfo& tissue : tissues)
+  {
+    Box3 box;
+    for (const Vec3& p : tissue.rest.nodes)
+    {
+      box.extend(p);
+    }
+    smallest = std::min(smallest, (box.max - box.min).maxCoeff());
+  }
+  return smallest;
 }
 }  // namespace
 
@@ -113,6 +132,10 @@ void Scene::Impl::makeSolver()
                        config_.solver.stepper == Stepper::quasi_static &&
                        static_cast<Index>(x_.size()) <= kCholeskyStaticNodes);
   newton_ = std::make_unique<NewtonSolver>(all, held, direct ? makeCholesky() : makePcg());
+  newton_options_.tolerance = config_.solver.tolerance;
+  newton_options_.max_iterations = config_.solver.max_iterations;
+  newton_options_.settled =
+      tissue_info_.empty() ? 0.0 : kSettled * config_.solver.tolerance * smallestSize(tissue_info_);
 }
 
 void Scene::Impl::addTool(std::size_t index)
@@ -165,7 +188,9 @@ void Scene::Impl::addContact(std::size_t index)
   contact.term = std::make_unique<ToolContact>(
       body, shape, makeDistanceField(tissue_config.field.method, fieldTopology(contact.tissue)),
       options);
-  contact.refresh = tissue_config.field.refresh != FieldRefresh::carried;
+  // Where the closest feature is searched for, features of any age start the search as well.
+  const bool lazy_depths = options.lazy_field && !options.closest_feature;
+  contact.refresh = lazy_depths || tissue_config.field.refresh == FieldRefresh::full;
   contacts_.push_back(std::move(contact));
 }
 

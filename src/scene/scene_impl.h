@@ -73,7 +73,7 @@ class Scene::Impl
   void aimTools();
   bool advance(double from, double to, int depth);
   bool minimise(double from, double to);
-  void chooseStart(double h);
+  void predict(double h);
   void stop();
   void finishStep();
   void collectContacts();
@@ -86,6 +86,7 @@ class Scene::Impl
   std::unique_ptr<Inertia> inertia_;
   std::unique_ptr<Gravity> gravity_;
   std::unique_ptr<NewtonSolver> newton_;
+  NewtonOptions newton_options_;
   std::vector<EnergyTerm*> terms_;
   std::vector<double> term_seconds_;
   Points extrapolated_;

@@ -96,15 +96,13 @@ bool Scene::Impl::minimise(double from, double to)
     }
   }
   term_seconds_.assign(terms_.size(), 0.0);
-  NewtonOptions options;
-  options.tolerance = config_.solver.tolerance;
-  options.max_iterations = config_.solver.max_iterations;
   before_ = x_;
   if (dynamic)
   {
-    chooseStart(h);
+    predict(h);
   }
-  const NewtonReport newton = newton_->minimise(terms_, options, x_, term_seconds_);
+  const NewtonReport newton = newton_->minimise(terms_, newton_options_, x_, term_seconds_,
+                                                dynamic ? &extrapolated_ : nullptr);
   for (std::size_t k = 0; k < first_contact; ++k)
   {
     report_.ms.fem += 1e3 * term_seconds_[k];
@@ -133,9 +131,9 @@ bool Scene::Impl::minimise(double from, double to)
   return true;
 }
 
-/** Starts the minimisation where the nodes would be if the last acceleration, or none, went on:
- * where the potential is lower. */
-void Scene::Impl::chooseStart(double h)
+/** Where a minimisation may start: the nodes as if no force acted, and as if the last acceleration
+ * went on. */
+void Scene::Impl::predict(double h)
 {
   x_ = inertia_->target();
   newton_->restoreFixed(before_, x_);
@@ -144,7 +142,6 @@ void Scene::Impl::chooseStart(double h)
   {
     extrapolated_[i] += h * h * acceleration_[i];
   }
-  newton_->takeLower(terms_, extrapolated_, x_, term_seconds_);
 }
 
 void Scene::Impl::stop()

@@ -66,8 +66,9 @@ const Section<FieldConfig>& fieldSection()
                     choice<FieldRefresh>({{"carried", FieldRefresh::carried},
                                           {"lazy", FieldRefresh::lazy},
                                           {"full", FieldRefresh::full}}),
-                    "carried: depths of the rest state; lazy: marched each step as far as contacts "
-                    "read; full: marched each step everywhere.");
+                    "carried: depths of the rest state; lazy: marched as far as contacts read, each "
+                    "step where depths are interpolated, else once; full: marched each step "
+                    "everywhere.");
   return section;
 }
 

@@ -9,7 +9,7 @@ namespace
 class Cholesky : public LinearSolver
 {
  public:
-  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
+  LinearReport solve(const BlockMatrix& a, const Points& b, const Points& x, double tolerance, Points& d) override
   {
     if (offsets_ != a.offsets() || columns_ != a.columns())
     {
@@ -25,7 +25,7 @@ class Cholesky : public LinearSolver
     }
     if (factor_.info() != Eigen::Success)  // singular
     {
-      return iterative_->solve(a, b, tolerance, d);
+      return iterative_->solve(a, b, x, tolerance, d);
     }
     const Eigen::Map<const Eigen::VectorXd> right(b.data()->data(), 3 * a.rows());
     d.resize(b.size());

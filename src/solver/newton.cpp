@@ -84,16 +84,6 @@ void NewtonSolver::restoreFixed(const Points& from, Points& to) const
   }
 }
 
-void NewtonSolver::takeLower(const std::vector<EnergyTerm*>& terms, Points& candidate, Points& x,
-                             std::vector<double>& seconds)
-{
-  if (candidate != x &&
-      evaluate(terms, candidate, seconds).value < evaluate(terms, x, seconds).value)
-  {
-    x.swap(candidate);
-  }
-}
-
 NewtonSolver::Potential NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms,
                                                const Points& x, std::vector<double>& seconds)
 {
@@ -106,6 +96,20 @@ NewtonSolver::Potential NewtonSolver::evaluate(const std::vector<EnergyTerm*>& t
     sum.magnitude += std::abs(value);
   }
   return sum;
+}
+
+/** sum += part; returns |part|^2. */
+double NewtonSolver::addUp(const Points& part, Points& sum) const
+{
+  return parallelSum(static_cast<Index>(part.size()), kGrain, [&](Index begin, Index end) {
+    double squared = 0.0;
+    for (Index i = begin; i < end; ++i)
+    {
+      sum[i] += part[i];
+      squared += part[i].squaredNorm();
+    }
+    return squared;
+  });
 }
 
 double NewtonSolver::gradient(const std::vector<EnergyTerm*>& terms, const Points& x, Points& sum,
@@ -122,11 +126,7 @@ double NewtonSolver::gradient(const std::vector<EnergyTerm*>& terms, const Point
     {
       term_gradient_[node].setZero();
     }
-    scale += std::sqrt(dot(term_gradient_, term_gradient_));
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      sum[i] += term_gradient_[i];
-    }
+    scale += std::sqrt(addUp(term_gradient_, sum));
   }
   const double norm = std::sqrt(dot(sum, sum));
   if (scale == 0.0)
@@ -158,10 +158,10 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
 }
 
 /** Solves for direction_; false where the Hessian is indefinite. */
-bool NewtonSolver::solve(double accuracy, NewtonReport& report)
+bool NewtonSolver::solve(const Points& x, double accuracy, NewtonReport& report)
 {
   const ScopedTimer timer(report.linear_s);
-  const LinearReport linear = linear_->solve(hessian_, descent_, accuracy, direction_);
+  const LinearReport linear = linear_->solve(hessian_, descent_, x, accuracy, direction_);
   report.linear_iterations += linear.iterations;
   return !linear.indefinite;
 }
@@ -177,14 +177,15 @@ NewtonSolver::Potential NewtonSolver::tryStep(const std::vector<EnergyTerm*>& te
   return evaluate(terms, trial_, seconds);
 }
 
-/** Goes from x along direction_ to trial_ until the potential has fallen enough; false: nowhere. */
-bool NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Points& x,
-                              Potential& potential, std::vector<double>& seconds)
+/** Goes from x along direction_ to trial_ until the potential has fallen enough.
+ * @return the step's length in units of direction_; 0: nowhere */
+double NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Points& x,
+                                Potential& potential, std::vector<double>& seconds)
 {
   const double slope = dot(gradient_, direction_);
   if (!(slope < 0.0))
   {
-    return false;  // no way down that rounding errors leave visible
+    return 0.0;  // no way down that rounding errors leave visible
   }
   const Potential start = potential;
   double step = 1.0;
@@ -192,7 +193,7 @@ bool NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Point
   {
     if (k == kMaxBacktracks)
     {
-      return false;
+      return 0.0;
     }
     potential = tryStep(terms, x, step, seconds);
     if (potential.value <= start.value + kSufficientDecrease * step * slope)
@@ -228,20 +229,32 @@ bool NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Point
     step *= 2.0;
     potential = further;
   }
-  return true;
+  return step;
 }
 
 NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
                                     const NewtonOptions& options, Points& x,
-                                    std::vector<double>& seconds)
+                                    std::vector<double>& seconds, Points* other)
 {
   NewtonReport report;
   const std::size_t n = x.size();
   descent_.resize(n);
   trial_.resize(n);
   trial_gradient_.resize(n);
-  report.residual = gradient(terms, x, gradient_, seconds);
   Potential potential;
+  const bool choice = other != nullptr && *other != x;
+  if (choice)
+  {
+    potential = evaluate(terms, x, seconds);
+    const Potential there = evaluate(terms, *other, seconds);
+    if (there.value < potential.value)
+    {
+      x.swap(*other);
+      potential = there;
+    }
+  }
+  report.residual = gradient(terms, x, gradient_, seconds);
+  const double size = largest(x);
   double accuracy = kFirstAccuracy;
   Curvature curvature = Curvature::exact;
   double indefinite_at = 0.0;  // the residual where exact curvature last failed
@@ -249,7 +262,7 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
   {
     if (report.iterations == 0)
     {
-      potential = evaluate(terms, x, seconds);
+      potential = choice ? potential : evaluate(terms, x, seconds);
       if (!std::isfinite(potential.value))
       {
         break;
@@ -267,19 +280,21 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
                     ? Curvature::exact
                     : Curvature::positive;
     assemble(terms, x, curvature, seconds);
-    bool definite = solve(accuracy, report);
+    bool definite = solve(x, accuracy, report);
     if (!definite && curvature == Curvature::exact)
     {
       indefinite_at = report.residual;
       assemble(terms, x, Curvature::positive, seconds);
-      definite = solve(accuracy, report);
+      definite = solve(x, accuracy, report);
     }
-    if (definite && largest(direction_) <= kUnresolved * largest(x))
+    const double longest = largest(direction_);
+    if (definite && longest <= kUnresolved * size)
     {
       report.converged = true;
       return report;
     }
-    if (!searchLine(terms, x, potential, seconds))
+    const double step = searchLine(terms, x, potential, seconds);
+    if (step == 0.0)
     {
       break;
     }
@@ -291,10 +306,16 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
       x.swap(trial_);
       break;
     }
-    accuracy = report.residual / before * report.residual / before;
+    const double left = report.residual / before;
+    if (step == 1.0 && left * longest <= options.settled)
+    {
+      report.converged = true;
+      break;
+    }
+    accuracy = left * left;
   }
   report.finite = std::isfinite(report.residual) && std::isfinite(potential.value);
-  report.converged = report.residual <= options.tolerance;
+  report.converged = report.converged || report.residual <= options.tolerance;
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "rigid_groups.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
 #include "soft_tissue_sim/solver/pcg_kernels.h"
@@ -13,7 +14,8 @@ constexpr Index kGrain = 256;
 /** Answers no more exact than this are found in single precision. */
 constexpr double kSingleTolerance = 1e-3;
 
-/** Conjugate gradients in one precision, preconditioned by the inverse diagonal blocks. */
+/** Conjugate gradients in one precision, preconditioned by the inverse diagonal blocks plus the rigid
+ * motions of groups of nodes. */
 template <typename Real>
 class Conjugator
 {
@@ -40,6 +42,17 @@ class Conjugator
       d[i] = scale * moved;
     }
     return report;
+  }
+
+  /** Takes the coarse level of the next solves. */
+  void setGroups(const RigidGroups& groups)
+  {
+    arms_.assign(groups.arms().begin(), groups.arms().end());
+    coarse_inverse_.assign(groups.inverse().begin(), groups.inverse().end());
+    coarse_residual_.assign(6 * static_cast<std::size_t>(groups.size()), Real(0));
+    coarse_move_.assign(coarse_residual_.size() + 6, Real(0));
+    groups_ = {groups.size(), groups.offsets().data(), groups.nodes().data(),
+               groups.group().data(), arms_.data()};
   }
 
  private:
@@ -96,6 +109,13 @@ class Conjugator
     PcgSums now = parallelSum(n, kGrain, [&](Index begin, Index end) {
       return kernels.precondition(begin, end, inverse, r, p);
     });
+    now.rz += solveCoarse(kernels);
+    const Real* move = coarse_move_.data();
+    if (groups_.size > 0)
+    {
+      parallelFor(n, kGrain,
+                  [&](Index begin, Index end) { kernels.spread(groups_, begin, end, move, p); });
+    }
     const double enough = tolerance * tolerance * now.rr;
     const int most = 10 * static_cast<int>(n) + 100;
     int iteration = 0;
@@ -110,7 +130,7 @@ class Conjugator
         return {iteration, true};
       }
       const Real step = static_cast<Real>(now.rz / curvature);
-      const PcgSums next = parallelSum(n, kGrain, [&](Index begin, Index end) {
+      PcgSums next = parallelSum(n, kGrain, [&](Index begin, Index end) {
         return kernels.advance(begin, end, inverse, step, p, d, r, q);
       });
       if (!std::isfinite(next.rr))  // singular, and no solution
@@ -118,29 +138,63 @@ class Conjugator
         solution_.assign(solution_.size(), Real(0));
         return {iteration, true};
       }
+      next.rz += solveCoarse(kernels);
       const Real ratio = static_cast<Real>(next.rz / now.rz);
       now = next;
-      parallelFor(n, kGrain,
-                  [&](Index begin, Index end) { kernels.turn(begin, end, ratio, q, p); });
+      parallelFor(n, kGrain, [&](Index begin, Index end) {
+        if (groups_.size > 0)
+        {
+          kernels.spread(groups_, begin, end, move, q);
+        }
+        kernels.turn(begin, end, ratio, q, p);
+      });
     }
     return {iteration, !std::isfinite(now.rr)};
+  }
+
+  /** Groups' moves for the residual; its product with them. */
+  double solveCoarse(const PcgKernels<Real>& kernels)
+  {
+    if (groups_.size == 0)
+    {
+      return 0.0;
+    }
+    kernels.gather(groups_, residual_.data(), coarse_residual_.data());
+    kernels.multiplyDense(6 * groups_.size, coarse_inverse_.data(), coarse_residual_.data(),
+                          coarse_move_.data());
+    double product = 0.0;
+    for (std::size_t i = 0; i < coarse_residual_.size(); ++i)
+    {
+      product += static_cast<double>(coarse_residual_[i]) * coarse_move_[i];
+    }
+    return product;
   }
 
   std::vector<Real> values_;   ///< the matrix, both triangles
   std::vector<Real> inverse_;  ///< of its diagonal blocks
   std::vector<Real> residual_, direction_, image_, solution_;
+  NodeGroups<Real> groups_ = {};
+  std::vector<Real> arms_, coarse_inverse_, coarse_residual_, coarse_move_;
 };
 
 class Pcg : public LinearSolver
 {
  public:
-  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d) override
+  LinearReport solve(const BlockMatrix& a, const Points& b, const Points& x, double tolerance,
+                     Points& d) override
   {
+    if (groups_.outdated(x))
+    {
+      groups_.build(a, x);
+      single_.setGroups(groups_);
+      double_.setGroups(groups_);
+    }
     return tolerance >= kSingleTolerance ? single_.solve(a, b, tolerance, d)
                                          : double_.solve(a, b, tolerance, d);
   }
 
  private:
+  RigidGroups groups_;
   Conjugator<float> single_;
   Conjugator<double> double_;
 };

@@ -151,10 +151,78 @@ void turn(Index begin, Index end, Real ratio, const Real* z, Real* p)
 }
 
 template <typename Real>
+void gather(const NodeGroups<Real>& groups, const Real* r, Real* c)
+{
+  for (Index g = 0; g < groups.size; ++g)
+  {
+    Real sum[6] = {};
+    for (Index i = groups.offsets[g]; i < groups.offsets[g + 1]; ++i)
+    {
+      const Real* v = r + 3 * static_cast<long>(groups.nodes[i]);
+      const Real* arm = groups.arms + 3 * static_cast<long>(groups.nodes[i]);
+      sum[0] += v[0];
+      sum[1] += v[1];
+      sum[2] += v[2];
+      sum[3] += arm[1] * v[2] - arm[2] * v[1];
+      sum[4] += arm[2] * v[0] - arm[0] * v[2];
+      sum[5] += arm[0] * v[1] - arm[1] * v[0];
+    }
+    std::memcpy(c + 6 * g, sum, sizeof(sum));
+  }
+}
+
+/** Adds up columns, so that every number is the same sum in the same order whatever the width. */
+template <typename Real>
+void multiplyDense(Index size, const Real* b, const Real* c, Real* y)
+{
+  using Pack = typename Wide<Real>::Pack;
+  constexpr Index kSize = sizeof(Pack) / sizeof(Real);
+  constexpr Index kPacks = 6;
+  Index row = 0;
+  for (; row + kPacks * kSize <= size; row += kPacks * kSize)
+  {
+    Pack sum[kPacks] = {};
+    for (Index k = 0; k < size; ++k)
+    {
+      const Real* column = b + static_cast<long>(size) * k + row;
+      for (Index i = 0; i < kPacks; ++i)
+      {
+        sum[i] += loadAs<Pack>(column + i * kSize) * c[k];
+      }
+    }
+    std::memcpy(y + row, sum, sizeof(sum));
+  }
+  for (; row < size; ++row)
+  {
+    Real sum = 0;
+    for (Index k = 0; k < size; ++k)
+    {
+      sum += b[static_cast<long>(size) * k + row] * c[k];
+    }
+    y[row] = sum;
+  }
+}
+
+template <typename Real>
+void spread(const NodeGroups<Real>& groups, Index begin, Index end, const Real* y, Real* z)
+{
+  for (Index node = begin; node < end; ++node)
+  {
+    const Real* move = y + 6 * static_cast<long>(groups.group[node]);
+    const Real* arm = groups.arms + 3 * static_cast<long>(node);
+    Real* to = z + 3 * static_cast<long>(node);
+    to[0] += move[0] + (move[4] * arm[2] - move[5] * arm[1]);
+    to[1] += move[1] + (move[5] * arm[0] - move[3] * arm[2]);
+    to[2] += move[2] + (move[3] * arm[1] - move[4] * arm[0]);
+  }
+}
+
+template <typename Real>
 const PcgKernels<Real>& pcgLoops()
 {
-  static const PcgKernels<Real> loops = {precondition<Real>, multiply<Real>, advance<Real>,
-                                         turn<Real>};
+  static const PcgKernels<Real> loops = {precondition<Real>, multiply<Real>,      advance<Real>,
+                                         turn<Real>,         gather<Real>,        multiplyDense<Real>,
+                                         spread<Real>};
   return loops;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/contact/depth_curvature.h"
 #include "soft_tissue_sim/energy/block_matrix.h"
 
 namespace soft_tissue
@@ -14,12 +15,16 @@ double contactEnergy(const std::vector<ContactSample>& samples);
 void addContactGradient(const std::vector<ContactSample>& samples, Points& gradient);
 
 /**
- * hessian += its Gauss-Newton part kappa area c_i c_j g g^T, positive semi-definite; blocks with
- * row <= column.
+ * hessian += the part kappa area c_i c_j g g^T of one sample's second derivative, which is all of
+ * it where the depth is linear, and positive semi-definite; blocks with row <= column.
  *
  * @throws Error if a pair of nodes is outside the matrix's pattern
  */
-void addContactHessian(const std::vector<ContactSample>& samples, BlockMatrix& hessian);
+void addLinearStiffness(const ContactSample& sample, BlockMatrix& hessian);
+
+/** hessian += one sample's whole second derivative, as DepthCurvature has it; may be indefinite. */
+void addStiffness(const ContactSample& sample, const DepthCurvature& curvature,
+                  BlockMatrix& hessian);
 
 /** Adds the force of the tissue on the tool, N, and its moment about `reference` (world, m), N m.
  */

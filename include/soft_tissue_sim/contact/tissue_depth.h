@@ -1,6 +1,7 @@
 #pragma once
 
 #include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/contact/depth_curvature.h"
 #include "soft_tissue_sim/contact/tissue_body.h"
 #include "soft_tissue_sim/field/distance_field.h"
 #include "soft_tissue_sim/geometry/aabb_tree.h"
@@ -38,6 +39,9 @@ class TissueDepth
    */
   bool evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
                 const DistanceField& field, ContactSample& sample) const;
+
+  /** What the second derivative of a sample's depth needs; x as it was evaluated at. */
+  DepthCurvature curvature(const ContactSample& sample, const Points& x) const;
 
  private:
   bool interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,

@@ -32,6 +32,12 @@ class RigidShape
   /** Exact signed distance of a point, both in the shape frame. */
   virtual SignedDistance distance(const Vec3& p) const = 0;
 
+  /**
+   * Second derivative of distance() at a point, shape frame, 1/m: of one side where it jumps, zero
+   * where the nearest surface is flat or the direction to it is lost.
+   */
+  virtual Mat3 curvature(const Vec3& p) const = 0;
+
   /** Bounds in the shape frame. */
   virtual Box3 bounds() const = 0;
 
@@ -74,6 +80,8 @@ class RigidBodyShape
   bool empty() const { return parts_.empty(); }
   /** Least distance to a part, body frame; +infinity while empty. */
   SignedDistance distance(const Vec3& p_T) const;
+  /** Second derivative of distance(), body frame, 1/m; zero while empty. */
+  Mat3 curvature(const Vec3& p_T) const;
   Box3 bounds() const;
   double innerRadius() const;  ///< the smallest of its parts, m; 0 while empty
   bool convex() const { return parts_.size() == 1 && parts_[0].shape->convex(); }
@@ -87,6 +95,13 @@ class RigidBodyShape
     Pose X_TS;
     Pose X_ST;
   };
+  struct Nearest
+  {
+    const Part* part = nullptr;
+    SignedDistance at;  ///< shape frame
+  };
+  Nearest nearest(const Vec3& p_T) const;
+
   std::vector<Part> parts_;
 };
 

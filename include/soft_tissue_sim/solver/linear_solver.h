@@ -9,7 +9,7 @@ namespace soft_tissue
 enum class LinearSolverKind
 {
   automatic,  ///< cholesky for small static problems, pcg otherwise
-  pcg,        ///< conjugate gradients, preconditioned by the inverse diagonal blocks
+  pcg,        ///< conjugate gradients, preconditioned in two levels
   cholesky,   ///< sparse LDL^T, its symbolic part kept from step to step
 };
 
@@ -26,11 +26,12 @@ class LinearSolver
   virtual ~LinearSolver() = default;
 
   /**
+   * @param x          positions of the nodes, m: what moves like a rigid body; N x 3
    * @param tolerance  stop when |b - A d| <= tolerance |b|; direct solvers ignore it
    * @param d          out, N x 3; of an indefinite A what was found until then, perhaps zero
    */
-  virtual LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance,
-                             Points& d) = 0;
+  virtual LinearReport solve(const BlockMatrix& a, const Points& b, const Points& x,
+                             double tolerance, Points& d) = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();

@@ -12,9 +12,15 @@ struct NewtonOptions
 {
   /**
    * Stop when |sum of forces| <= tolerance * sum of the norms of the terms' forces, free nodes
-   * only; or when the forces left would move no node by more than positions can tell apart.
+   * only; or when the forces left would move no node by more than positions can tell apart, or
+   * than `settled`.
    */
   double tolerance = 1e-3;
+  /**
+   * Nor go on when a full step has left forces that, in proportion, would move no node by more than
+   * this length, m: it ends what tiny forces alone would keep going.
+   */
+  double settled = 0.0;
   int max_iterations = 20;
 };
 
@@ -49,13 +55,10 @@ class NewtonSolver
    * @param terms      what is minimised
    * @param x          in: start, out: minimiser; never non-finite
    * @param seconds    per term: wall time spent in it is added
+   * @param other      another start, taken where the potential is lower there; lost
    */
   NewtonReport minimise(const std::vector<EnergyTerm*>& terms, const NewtonOptions& options,
-                        Points& x, std::vector<double>& seconds);
-
-  /** x becomes the candidate if the potential is lower there; which of both is then lost. */
-  void takeLower(const std::vector<EnergyTerm*>& terms, Points& candidate, Points& x,
-                 std::vector<double>& seconds);
+                        Points& x, std::vector<double>& seconds, Points* other = nullptr);
 
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
@@ -68,15 +71,16 @@ class NewtonSolver
   };
   Potential evaluate(const std::vector<EnergyTerm*>& terms, const Points& x,
                      std::vector<double>& seconds);
+  double addUp(const Points& part, Points& sum) const;
   double gradient(const std::vector<EnergyTerm*>& terms, const Points& x, Points& sum,
                   std::vector<double>& seconds);
   void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
                 std::vector<double>& seconds);
-  bool solve(double accuracy, NewtonReport& report);
+  bool solve(const Points& x, double accuracy, NewtonReport& report);
   Potential tryStep(const std::vector<EnergyTerm*>& terms, const Points& x, double step,
                     std::vector<double>& seconds);
-  bool searchLine(const std::vector<EnergyTerm*>& terms, const Points& x, Potential& potential,
-                  std::vector<double>& seconds);
+  double searchLine(const std::vector<EnergyTerm*>& terms, const Points& x, Potential& potential,
+                    std::vector<double>& seconds);
 
   std::vector<Index> fixed_;
   std::vector<Index> fixed_blocks_;  ///< blocks in a row or column of a fixed node

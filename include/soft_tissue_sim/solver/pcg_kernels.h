@@ -26,6 +26,18 @@ struct PcgSums
   }
 };
 
+/** Groups of nodes that a coarse level moves like rigid bodies: 6 numbers a group, translation and
+ * rotation. */
+template <typename Real>
+struct NodeGroups
+{
+  Index size;            ///< groups
+  const Index* offsets;  ///< size + 1, into nodes
+  const Index* nodes;
+  const Index* group;  ///< per node; size: in none
+  const Real* arms;    ///< per node, 3: from the group's centre
+};
+
 /**
  * The passes of a conjugate-gradient iteration over nodes begin ... end - 1. Vectors are flat, 3
  * per node; `inverse` is the preconditioner, 9 per node by columns, and one more readable number.
@@ -42,6 +54,12 @@ struct PcgKernels
                      Real* r, Real* q);
   /** p = z + ratio p. */
   void (*turn)(Index begin, Index end, Real ratio, const Real* z, Real* p);
+  /** c = P^T r, 6 a group. */
+  void (*gather)(const NodeGroups<Real>& groups, const Real* r, Real* c);
+  /** y = B c for a dense symmetric B of this size. */
+  void (*multiplyDense)(Index size, const Real* b, const Real* c, Real* y);
+  /** z += P y; y has 6 zeros more for nodes in no group. */
+  void (*spread)(const NodeGroups<Real>& groups, Index begin, Index end, const Real* y, Real* z);
 };
 
 /** The passes for this machine, Real being float or double; all give the same bits. */
