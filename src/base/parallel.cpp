@@ -1,18 +1,20 @@
 #include "soft_tissue_sim/base/parallel.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <atomic>
 #include <memory>
 #include <string>
 
 #include "soft_tissue_sim/base/error.h"
-#include "thread_team.h"
 
 namespace soft_tissue
 {
 namespace
 {
 std::atomic<int> g_threads{1};
-std::unique_ptr<ThreadTeam> g_team;
+std::unique_ptr<tbb::task_arena> g_arena;
 }  // namespace
 
 void setThreadCount(int threads)
@@ -25,7 +27,7 @@ void setThreadCount(int threads)
   {
     return;
   }
-  g_team = threads > 1 ? std::make_unique<ThreadTeam>(threads - 1) : nullptr;
+  g_arena = threads > 1 ? std::make_unique<tbb::task_arena>(threads) : nullptr;
   g_threads = threads;
 }
 
@@ -38,15 +40,19 @@ namespace detail
 {
 void runChunks(Index chunks, ChunkFunction function, const void* context)
 {
-  if (g_team != nullptr)
+  if (g_threads == 1 || chunks <= 1)
   {
-    g_team->run(chunks, function, context);
+    for (Index chunk = 0; chunk < chunks; ++chunk)
+    {
+      function(context, chunk);
+    }
     return;
   }
-  for (Index chunk = 0; chunk < chunks; ++chunk)
-  {
-    function(context, chunk);
-  }
+  g_arena->execute([&] {
+    tbb::parallel_for(
+        Index{0}, chunks, [&](Index chunk) { function(context, chunk); },
+        tbb::simple_partitioner());
+  });
 }
 }  // namespace detail
 

@@ -1,7 +1,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "rigid_groups.h"
+#include "soft_tissue_sim/solver/rigid_groups.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
 #include "soft_tissue_sim/solver/pcg_kernels.h"

@@ -1,4 +1,4 @@
-#include "rigid_groups.h"
+#include "soft_tissue_sim/solver/rigid_groups.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -13,6 +13,8 @@ constexpr Index kNodesEach = 64;
 constexpr Index kMostGroups = 40;
 /** Share of its group's size a node may move before rigid motions are taken anew. */
 constexpr double kOutdated = 0.25;
+/** Share of the largest diagonal number added to all: nodes in a line have no moment of inertia. */
+constexpr double kShift = 1e-6;
 
 using Matrix = Eigen::MatrixXd;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
@@ -92,12 +94,13 @@ void RigidGroups::makeGroups(const BlockMatrix& a, const Points& x)
   offsets_ = {0};
   nodes_ = coupledNodes(a);
   const Index count = std::min(static_cast<Index>(nodes_.size()) / kNodesEach, kMostGroups);
-  group_.assign(x.size(), count);
   if (count < 2)
   {
     nodes_.clear();
+    group_.assign(x.size(), 0);
     return;
   }
+  group_.assign(x.size(), count);
   std::vector<Index> sizes;
   bisect(x, nodes_.begin(), nodes_.end(), count, sizes);
   for (Index g = 0; g < count; ++g)
@@ -128,9 +131,10 @@ void RigidGroups::placeArms(const Points& x)
     {
       sizes_[g] = std::max(sizes_[g], (x[nodes_[i]] - centre).norm());
     }
+    const double scale = sizes_[g] > 0.0 ? 1.0 / sizes_[g] : 0.0;
     for (Index i = offsets_[g]; i < offsets_[g + 1]; ++i)
     {
-      Eigen::Map<Vec3>(arms_.data() + 3 * nodes_[i]) = (x[nodes_[i]] - centre) / sizes_[g];
+      Eigen::Map<Vec3>(arms_.data() + 3 * nodes_[i]) = scale * (x[nodes_[i]] - centre);
     }
   }
 }
@@ -187,6 +191,10 @@ void RigidGroups::build(const BlockMatrix& a, const Points& x)
         coarse.block<6, 6>(6 * h, 6 * g) += block.transpose();
       }
     }
+  }
+  if (size() > 0)
+  {
+    coarse.diagonal().array() += kShift * coarse.diagonal().maxCoeff();
   }
   const Eigen::LLT<Matrix> factor(coarse);
   usable_ = size() == 0 || factor.info() == Eigen::Success;

@@ -61,8 +61,8 @@ class ToolContact : public EnergyTerm
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
-  /** Exact but for what the motion of clip points adds; its positive part is what a depth without
-   * curvature would give. */
+  /** Exact but for what the motion of clip points adds, and of the kinks of an interpolated depth;
+   * its positive part is what a depth without curvature would give. */
   void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
 
   /** The samples at x, world frame; valid until the next call of any member. */

@@ -33,6 +33,10 @@ TEST(RigidBodyShape, IsTheUnionOfItsPosedParts)
     const Vec3 expected =
         to_a.distance < to_b.distance ? X_TA.linear() * to_a.normal : X_TB.linear() * to_b.normal;
     EXPECT_LE((found.normal - expected).norm(), 1e-14);
+    const Mat3 of_a = X_TA.linear() * a->curvature(X_TA.inverse() * p) * X_TA.linear().transpose();
+    const Mat3 of_b = X_TB.linear() * b->curvature(X_TB.inverse() * p) * X_TB.linear().transpose();
+    EXPECT_LE((body.curvature(p) - (to_a.distance < to_b.distance ? of_a : of_b)).norm(),
+              1e-12 * (1.0 + of_a.norm() + of_b.norm()));
   }
   const SurfaceMesh mesh = body.surface(0.01);
   EXPECT_EQ(mesh.triangles.size(),
@@ -51,6 +55,7 @@ TEST(RigidBodyShape, EmptyBodyIsInfinitelyFar)
   const RigidBodyShape body;
   EXPECT_TRUE(body.empty());
   EXPECT_EQ(body.distance(Vec3::Zero()).distance, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(body.curvature(Vec3::Zero()), Mat3::Zero());
   EXPECT_EQ(body.innerRadius(), 0.0);
   EXPECT_TRUE(body.surface(0.1).nodes.empty());
   EXPECT_FALSE(body.convex());

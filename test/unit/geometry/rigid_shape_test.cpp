@@ -189,6 +189,34 @@ TEST_P(EveryShape, RefusesAnEdgeLengthThatIsNotPositiveOrFarTooSmall)
   EXPECT_THROW(shape().surface(1e-7 * c().size), Error);
 }
 
+TEST_P(EveryShape, CurvatureIsTheDerivativeOfTheNormal)
+{
+  RandomGeometry random(6);
+  const double h = 1e-6 * c().size;
+  int compared = 0;
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    const Vec3 p = random.point(c().size);
+    const Mat3 curvature = shape().curvature(p);
+    Mat3 difference;
+    double jump = 0.0;  // between one-sided differences: the nearest feature changes nearby
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Vec3 step = h * Vec3::Unit(axis);
+      const Vec3 after = shape().distance(p + step).normal, at = shape().distance(p).normal,
+                 before = shape().distance(p - step).normal;
+      difference.col(axis) = (after - before) / (2.0 * h);
+      jump = std::max(jump, (after - 2.0 * at + before).norm());
+    }
+    if (jump < 1e-8 && std::abs(shape().distance(p).distance) > 0.01 * c().size)
+    {
+      ++compared;
+      EXPECT_LT((curvature - difference).norm() * c().size, 1e-5) << p.transpose();
+    }
+  }
+  EXPECT_GT(compared, 100);
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(allShapes()),
                          [](const auto& info) { return info.param.name; });
 

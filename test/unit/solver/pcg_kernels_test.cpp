@@ -121,10 +121,33 @@ std::vector<double> runPasses(InstructionSet set)
     kernels.turn(begin, end, Real(0.7), q.data(), turned.data());
     results.insert(results.end(), {sums.rr, sums.rz});
   }
-  for (const std::vector<Real>* vector : {&d, &r, &q, &turned})
+  // Three groups of uneven size; every fifth node is in none.
+  std::vector<Index> offsets = {0}, members, group(kNodes, 3);
+  for (Index g = 0; g < 3; ++g)
+  {
+    for (Index node = g; node < kNodes; node += 3)
+    {
+      if (node % 5 != 0)
+      {
+        members.push_back(node);
+        group[node] = g;
+      }
+    }
+    offsets.push_back(static_cast<Index>(members.size()));
+  }
+  const std::vector<Real> arms = numbers(kNodes, 3, 6), dense = numbers(18 * 18 / 3 + 1, 3, 7);
+  const NodeGroups<Real> groups = {3, offsets.data(), members.data(), group.data(), arms.data()};
+  std::vector<Real> gathered(18), moved(24, Real(0)), spread = p;
+  kernels.gather(groups, r.data(), gathered.data());
+  kernels.multiplyDense(18, dense.data(), gathered.data(), moved.data());
+  kernels.spread(groups, 0, kCut, moved.data(), spread.data());
+  kernels.spread(groups, kCut, kNodes, moved.data(), spread.data());
+  for (const std::vector<Real>* vector : {&d, &r, &q, &turned, &spread})
   {
     results.insert(results.end(), vector->begin(), vector->begin() + 3 * kNodes);
   }
+  results.insert(results.end(), gathered.begin(), gathered.end());
+  results.insert(results.end(), moved.begin(), moved.begin() + 18);
   return results;
 }
 
@@ -159,6 +182,47 @@ TEST(PcgPasses, DoWhatTheirFormulasSayInBothPrecisions)
   EXPECT_NEAR(in_double[1] + in_double[3], rz, 1e-13 * rr);
   EXPECT_NEAR(in_float[0] + in_float[2], rr, 1e-5 * rr);
   EXPECT_NEAR(in_float[1] + in_float[3], rz, 1e-5 * rr);
+}
+
+TEST(PcgPasses, MoveGroupsAsTheirFormulasSay)
+{
+  constexpr Index kNodes = 37;
+  const Points p = randomPoints(kNodes + 1, 2), r0 = randomPoints(kNodes + 1, 4),
+               q = randomPoints(kNodes + 1, 5), arms = randomPoints(kNodes + 1, 6),
+               dense = randomPoints(18 * 18 / 3 + 2, 7);
+  const std::vector<double> in_double = runPasses<double>(instructionSet());
+  const std::vector<double> in_float = runPasses<float>(instructionSet());
+  Eigen::VectorXd gathered = Eigen::VectorXd::Zero(24);
+  for (Index i = 0; i < kNodes; ++i)
+  {
+    if (i % 5 != 0)
+    {
+      const Vec3 residual = r0[i] - 0.3 * q[i];
+      gathered.segment<3>(6 * (i % 3)) += residual;
+      gathered.segment<3>(6 * (i % 3) + 3) += arms[i].cross(residual);
+    }
+  }
+  const Eigen::Map<const Eigen::MatrixXd> matrix(dense[0].data(), 18, 18);
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(24);
+  moved.head(18) = matrix * gathered.head(18);
+  const std::size_t spread = 4 + 3 * 4 * kNodes, after = spread + 3 * kNodes;
+  for (Index i = 0; i < kNodes; ++i)
+  {
+    const Index g = i % 5 != 0 ? i % 3 : 3;
+    const Vec3 turn = moved.segment<3>(6 * g + 3);
+    const Vec3 expected = p[i] + moved.segment<3>(6 * g) + turn.cross(arms[i]);
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_NEAR(in_double[spread + 3 * i + k], expected[k], 1e-12);
+      EXPECT_NEAR(in_float[spread + 3 * i + k], expected[k], 2e-4);
+    }
+  }
+  for (int k = 0; k < 18; ++k)
+  {
+    EXPECT_NEAR(in_double[after + k], gathered[k], 1e-13);
+    EXPECT_NEAR(in_double[after + 18 + k], moved[k], 1e-12);
+    EXPECT_NEAR(in_float[after + 18 + k], moved[k], 1e-4);
+  }
 }
 
 TEST(PcgPasses, HaveTheSameBitsOnEveryInstructionSet)

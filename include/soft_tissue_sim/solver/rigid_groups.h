@@ -9,7 +9,7 @@ namespace soft_tissue
 /**
  * The coarse level of a preconditioner for elastic bodies: nearby nodes in groups, each of which
  * may move like a rigid body. Those are the slow motions that neighbours alone take long to agree
- * on.
+ * on. For matrices of one pattern, with the same fixed nodes.
  */
 class RigidGroups
 {
