@@ -120,8 +120,9 @@ class Capsule : public RigidShape
   {
     const double beyond = std::abs(p.z()) - half_length_;
     const Vec3 z = Vec3::UnitZ();
-    return beyond > 0.0 ? aroundFeature({p.x(), p.y(), beyond * (p.z() < 0.0 ? -1.0 : 1.0)}, Mat3::Zero())
-                        : aroundFeature({p.x(), p.y(), 0.0}, z * z.transpose());
+    return beyond > 0.0
+               ? aroundFeature({p.x(), p.y(), beyond * (p.z() < 0.0 ? -1.0 : 1.0)}, Mat3::Zero())
+               : aroundFeature({p.x(), p.y(), 0.0}, z * z.transpose());
   }
 
   Box3 bounds() const override

@@ -67,8 +67,7 @@ class MeshShape : public RigidShape
     {
       case 3:
         return Mat3::Zero();
-      case 2:
-      {
+      case 2: {
         int apex = 0;
         nearest.at.weights.minCoeff(&apex);
         const Vec3 along =

@@ -62,13 +62,14 @@ const Section<FieldConfig>& fieldSection()
                                        {"closest_feature", DepthKind::closest_feature}}),
                     "Depth between the nodes: linear in the tet, or the true distance to the "
                     "nearest boundary feature.")
-          .optional("refresh", &FieldConfig::refresh,
-                    choice<FieldRefresh>({{"carried", FieldRefresh::carried},
-                                          {"lazy", FieldRefresh::lazy},
-                                          {"full", FieldRefresh::full}}),
-                    "carried: depths of the rest state; lazy: marched as far as contacts read, each "
-                    "step where depths are interpolated, else once; full: marched each step "
-                    "everywhere.");
+          .optional(
+              "refresh", &FieldConfig::refresh,
+              choice<FieldRefresh>({{"carried", FieldRefresh::carried},
+                                    {"lazy", FieldRefresh::lazy},
+                                    {"full", FieldRefresh::full}}),
+              "carried: depths of the rest state; lazy: marched as far as contacts read, each "
+              "step where depths are interpolated, else once; full: marched each step "
+              "everywhere.");
   return section;
 }
 

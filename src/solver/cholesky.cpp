@@ -9,7 +9,8 @@ namespace
 class Cholesky : public LinearSolver
 {
  public:
-  LinearReport solve(const BlockMatrix& a, const Points& b, const Points& x, double tolerance, Points& d) override
+  LinearReport solve(const BlockMatrix& a, const Points& b, const Points& x, double tolerance,
+                     Points& d) override
   {
     if (offsets_ != a.offsets() || columns_ != a.columns())
     {

@@ -1,10 +1,10 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "soft_tissue_sim/solver/rigid_groups.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
 #include "soft_tissue_sim/solver/pcg_kernels.h"
+#include "soft_tissue_sim/solver/rigid_groups.h"
 
 namespace soft_tissue
 {
@@ -14,8 +14,8 @@ constexpr Index kGrain = 256;
 /** Answers no more exact than this are found in single precision. */
 constexpr double kSingleTolerance = 1e-3;
 
-/** Conjugate gradients in one precision, preconditioned by the inverse diagonal blocks plus the rigid
- * motions of groups of nodes. */
+/** Conjugate gradients in one precision, preconditioned by the inverse diagonal blocks plus the
+ * rigid motions of groups of nodes. */
 template <typename Real>
 class Conjugator
 {
@@ -51,8 +51,8 @@ class Conjugator
     coarse_inverse_.assign(groups.inverse().begin(), groups.inverse().end());
     coarse_residual_.assign(6 * static_cast<std::size_t>(groups.size()), Real(0));
     coarse_move_.assign(coarse_residual_.size() + 6, Real(0));
-    groups_ = {groups.size(), groups.offsets().data(), groups.nodes().data(),
-               groups.group().data(), arms_.data()};
+    groups_ = {groups.size(), groups.offsets().data(), groups.nodes().data(), groups.group().data(),
+               arms_.data()};
   }
 
  private:

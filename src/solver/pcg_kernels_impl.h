@@ -220,8 +220,8 @@ void spread(const NodeGroups<Real>& groups, Index begin, Index end, const Real* 
 template <typename Real>
 const PcgKernels<Real>& pcgLoops()
 {
-  static const PcgKernels<Real> loops = {precondition<Real>, multiply<Real>,      advance<Real>,
-                                         turn<Real>,         gather<Real>,        multiplyDense<Real>,
+  static const PcgKernels<Real> loops = {precondition<Real>, multiply<Real>, advance<Real>,
+                                         turn<Real>,         gather<Real>,   multiplyDense<Real>,
                                          spread<Real>};
   return loops;
 }

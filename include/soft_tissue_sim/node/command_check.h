@@ -32,7 +32,8 @@ class StampOrder
  public:
   /** Zero stamps mean "now" and are always in order. */
   bool accepts(const ros::Time& stamp) const { return stamp.isZero() || stamp >= last_; }
-  /** A stamp ahead of the clock counts as `now`: it must not bar those that come in time after it. */
+  /** A stamp ahead of the clock counts as `now`: it must not bar those that come in time after it.
+   */
   void accept(const ros::Time& stamp, const ros::Time& now)
   {
     last_ = stamp.isZero() ? last_ : std::min(stamp, now);

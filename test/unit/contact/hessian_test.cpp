@@ -17,7 +17,8 @@ TetMesh tissue()
   return slab(Vec3::Zero(), {0.021, 0.021, 0.014}, 3, 3, 2);
 }
 
-/** The second derivative where it exists: differences of the exact gradient that agree on both sides. */
+/** The second derivative where it exists: differences of the exact gradient that agree on both
+ * sides. */
 Eigen::MatrixXd centralDifference(ToolContact& contact, const Points& x)
 {
   constexpr double kStep = 1e-9;

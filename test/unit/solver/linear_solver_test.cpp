@@ -2,14 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdio>
-
 #include "soft_tissue_sim/base/cpu.h"
 #include "soft_tissue_sim/base/parallel.h"
-#include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/mesh/generate.h"
-#include "soft_tissue_sim/solver/rigid_groups.h"
 #include "support/block_matrices.h"
 #include "support/finite_difference.h"
 
@@ -190,7 +185,8 @@ TEST_P(EveryLinearSolver, SolvesASingularSystemThatHasASolution)
   EXPECT_LT(relativeResidual(a, b, d), 1.01e-10);
 
   b[lone] = Vec3(0.0, 1.0, 0.0);
-  EXPECT_TRUE(solver_->solve(a, b, placesOf(a), 1e-10, d).indefinite) << "no solution, and nobody said so";
+  EXPECT_TRUE(solver_->solve(a, b, placesOf(a), 1e-10, d).indefinite)
+      << "no solution, and nobody said so";
   EXPECT_TRUE(flat(d).allFinite());
 }
 
@@ -237,139 +233,6 @@ TEST_P(EveryLinearSolver, HasTheSameBitsForAnyThreadsAndInstructionSet)
   {
     EXPECT_EQ(d, solutions[0]);
   }
-}
-
-/** A bar held at one end, as stiff as its springs, on some ground to keep it from being singular. */
-struct Bar
-{
-  TetMesh mesh = makeBox({3, 3, 30}, {0.3, 0.3, 3.0});
-  BlockMatrix matrix = BlockMatrix(nodeNeighbours(Index(mesh.nodes.size()), mesh.tets));
-  std::vector<Index> fixed;
-
-  Bar()
-  {
-    std::vector<TetStiffnessParameters> stiffness(mesh.tets.size(), {1000.0, 0.4});
-    TetElasticity elasticity(mesh, MaterialModel::corotated, stiffness, 0);
-    elasticity.addHessian(mesh.nodes, Curvature::positive, matrix);
-    for (Index i = 0; i < matrix.rows(); ++i)
-    {
-      addDiagonal(matrix, i, 1e-3);
-      if (mesh.nodes[i].z() < 1e-9)
-      {
-        fixed.push_back(i);
-      }
-    }
-    for (Index row = 0; row < matrix.rows(); ++row)
-    {
-      for (Index k = matrix.offsets()[row]; k < matrix.offsets()[row + 1]; ++k)
-      {
-        const Index column = matrix.columns()[k];
-        if (isFixed(row) || isFixed(column))
-        {
-          Eigen::Map<Mat3>(matrix.block(k)) = (row == column ? 1.0 : 0.0) * Mat3::Identity();
-        }
-      }
-    }
-  }
-
-  bool isFixed(Index node) const
-  {
-    return std::find(fixed.begin(), fixed.end(), node) != fixed.end();
-  }
-
-  /** A weight at the far end. */
-  Points load() const
-  {
-    Points b(mesh.nodes.size(), Vec3::Zero());
-    for (std::size_t i = 0; i < b.size(); ++i)
-    {
-      if (mesh.nodes[i].z() > 3.0 - 1e-9)
-      {
-        b[i] = Vec3(1.0, 0.5, 0.0);
-      }
-    }
-    return b;
-  }
-};
-
-TEST(Pcg, RigidGroupsShortenASlendersBodysWayToBalance)
-{
-  const Bar bar;
-  const Points b = bar.load();
-  Points d;
-  // Equal places leave no groups but points: neighbours alone have to agree.
-  const int alone = makePcg()->solve(bar.matrix, b, Points(b.size(), Vec3::Zero()), 1e-8, d).iterations;
-  const int grouped = makePcg()->solve(bar.matrix, b, bar.mesh.nodes, 1e-8, d).iterations;
-  std::printf("  %d iterations, without rotations of groups %d\n", grouped, alone);
-  EXPECT_LT(3 * grouped, 2 * alone);
-  EXPECT_LT(relativeResidual(bar.matrix, b, d), 1.01e-8);
-}
-
-TEST(Pcg, RigidGroupsLeaveFixedNodesWhereTheyAre)
-{
-  const Bar bar;
-  for (const double tolerance : {1e-2, 1e-8})  // single and double precision
-  {
-    Points d;
-    makePcg()->solve(bar.matrix, bar.load(), bar.mesh.nodes, tolerance, d);
-    for (const Index node : bar.fixed)
-    {
-      EXPECT_EQ(d[node], Vec3::Zero());
-    }
-  }
-}
-
-TEST(RigidGroups, CoarseMatrixIsThatOfRigidMotions)
-{
-  const Bar bar;
-  RigidGroups groups;
-  EXPECT_TRUE(groups.outdated(bar.mesh.nodes));
-  groups.build(bar.matrix, bar.mesh.nodes);
-  EXPECT_FALSE(groups.outdated(bar.mesh.nodes));
-  ASSERT_GE(groups.size(), 2);
-  const Eigen::Index n = 3 * bar.matrix.rows(), coarse = 6 * groups.size();
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(n, coarse);
-  std::vector<int> members(bar.matrix.rows(), 0);
-  for (int g = 0; g < groups.size(); ++g)
-  {
-    for (Index i = groups.offsets()[g]; i < groups.offsets()[g + 1]; ++i)
-    {
-      const Index node = groups.nodes()[i];
-      ++members[node];
-      EXPECT_EQ(groups.group()[node], g);
-      const Vec3 arm = Eigen::Map<const Vec3>(groups.arms().data() + 3 * node);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        motions.block<3, 1>(3 * node, 6 * g + axis) = Vec3::Unit(axis);
-        motions.block<3, 1>(3 * node, 6 * g + 3 + axis) = Vec3::Unit(axis).cross(arm);
-      }
-    }
-  }
-  for (Index node = 0; node < bar.matrix.rows(); ++node)
-  {
-    EXPECT_EQ(members[node], bar.isFixed(node) ? 0 : 1) << node;
-    EXPECT_EQ(groups.group()[node] == groups.size(), bar.isFixed(node)) << node;
-  }
-  Eigen::MatrixXd expected = motions.transpose() * dense(bar.matrix) * motions;
-  expected.diagonal().array() += 1e-6 * expected.diagonal().maxCoeff();
-  const Eigen::MatrixXd inverse =
-      Eigen::Map<const Eigen::MatrixXd>(groups.inverse().data(), coarse, coarse);
-  EXPECT_LT((inverse * expected - Eigen::MatrixXd::Identity(coarse, coarse)).norm(), 1e-8);
-}
-
-TEST(RigidGroups, AreOutdatedByWhatIsFarFromWhereTheyWereBuilt)
-{
-  const Bar bar;
-  RigidGroups groups;
-  groups.build(bar.matrix, bar.mesh.nodes);
-  Points x = bar.mesh.nodes;
-  const Index last = groups.nodes().back();
-  x[last].x() += 0.01;
-  EXPECT_FALSE(groups.outdated(x));
-  x[last].x() += 1.0;
-  EXPECT_TRUE(groups.outdated(x));
-  groups.build(bar.matrix, x);
-  EXPECT_FALSE(groups.outdated(x));
 }
 
 TEST(Pcg, NeedsNoMoreIterationsThanUnknowns)

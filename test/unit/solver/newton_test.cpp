@@ -7,9 +7,7 @@
 #include <limits>
 
 #include "soft_tissue_sim/base/parallel.h"
-#include "soft_tissue_sim/energy/mass_terms.h"
-#include "soft_tissue_sim/energy/tet_elasticity.h"
-#include "soft_tissue_sim/mesh/generate.h"
+#include "support/pulled_block.h"
 #include "support/simple_terms.h"
 
 namespace soft_tissue
@@ -17,23 +15,6 @@ namespace soft_tissue
 namespace
 {
 using namespace test;
-
-using Terms = std::vector<EnergyTerm*>;
-
-NewtonOptions optionsOf(double tolerance, int max_iterations)
-{
-  NewtonOptions options;
-  options.tolerance = tolerance;
-  options.max_iterations = max_iterations;
-  return options;
-}
-
-NewtonReport minimise(NewtonSolver& newton, const Terms& terms, const NewtonOptions& options,
-                      Points& x)
-{
-  std::vector<double> seconds(terms.size(), 0.0);
-  return newton.minimise(terms, options, x, seconds);
-}
 
 double valueOf(const Terms& terms, const Points& x)
 {
@@ -63,49 +44,6 @@ double residualOf(const Terms& terms, const std::vector<Index>& fixed, const Poi
   }
   return sum.norm() / size;
 }
-
-/** A block of soft material fixed at its bottom and pulled at its top. */
-struct PulledBlock
-{
-  TetMesh mesh = makeBox({4, 3, 5}, {0.04, 0.03, 0.05});
-  std::vector<Index> fixed;
-  TetElasticity elasticity;
-  NodalLoads loads;
-  Terms terms = {&elasticity, &loads};
-
-  explicit PulledBlock(const Vec3& pull, double poisson_ratio = 0.4)
-      : elasticity(mesh, MaterialModel::neo_hookean, {mesh.tets.size(), {5000.0, poisson_ratio}},
-                   0),
-        loads(forces(mesh, pull))
-  {
-    for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-    {
-      if (mesh.nodes[i].z() == 0.0)
-      {
-        fixed.push_back(static_cast<Index>(i));
-      }
-    }
-  }
-
-  NewtonSolver newton(std::unique_ptr<LinearSolver> linear) const
-  {
-    return NewtonSolver(nodeNeighbours(static_cast<Index>(mesh.nodes.size()), mesh.tets), fixed,
-                        std::move(linear));
-  }
-
- private:
-  static Points forces(const TetMesh& mesh, const Vec3& pull)
-  {
-    Points all;
-    for (const Vec3& p : mesh.nodes)
-    {
-      all.push_back(p.z() > 0.0499 ? Vec3(pull / 20.0) : Vec3(Vec3::Zero()));
-    }
-    return all;
-  }
-};
-
-constexpr double kPull = 0.6;  // N on 12 cm^2 of 5 kPa: a strain of about a tenth
 
 TEST(NewtonSolver, SolvesAQuadraticInOneIteration)
 {
@@ -204,56 +142,6 @@ TEST(NewtonSolver, ReachesTheToleranceAskedForAndReportsTheResidual)
                   1e-6 * report.residual + 1e-14);
     }
   }
-}
-
-TEST(NewtonSolver, EndsWhereNodesAreSettled)
-{
-  PulledBlock block({0.3 * kPull, 0.0, kPull});
-  NewtonSolver newton = block.newton(makeCholesky());
-  Points end = block.mesh.nodes;
-  const int all = minimise(newton, block.terms, optionsOf(1e-13, 50), end).iterations;
-  int last = all;
-  for (const double settled : {1e-9, 1e-6, 1e-4})
-  {
-    NewtonOptions options = optionsOf(1e-13, 50);
-    options.settled = settled;
-    Points x = block.mesh.nodes;
-    const NewtonReport report = minimise(newton, block.terms, options, x);
-    EXPECT_TRUE(report.converged);
-    EXPECT_LE(report.iterations, last);
-    last = report.iterations;
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      EXPECT_LT((x[i] - end[i]).norm(), 2.0 * settled) << settled;  // it is an estimate
-    }
-  }
-  EXPECT_LT(last, all);
-}
-
-TEST(NewtonSolver, StartsFromTheLowerOfTwoStates)
-{
-  PulledBlock block({0.3 * kPull, 0.0, kPull});
-  NewtonSolver newton = block.newton(makeCholesky());
-  Points end = block.mesh.nodes;
-  const int all = minimise(newton, block.terms, optionsOf(1e-10, 50), end).iterations;
-  const auto iterationsWith = [&](Points other, Points& x) {
-    std::vector<double> seconds(block.terms.size(), 0.0);
-    return newton.minimise(block.terms, optionsOf(1e-10, 50), x, seconds, &other).iterations;
-  };
-  Points x = block.mesh.nodes;
-  EXPECT_LT(iterationsWith(end, x), all);
-  Points far = block.mesh.nodes, from_far = block.mesh.nodes;
-  for (std::size_t i = 0; i < far.size(); ++i)
-  {
-    const bool fixed = std::count(block.fixed.begin(), block.fixed.end(), Index(i)) > 0;
-    far[i] *= fixed ? 1.0 : 3.0;
-  }
-  EXPECT_EQ(iterationsWith(far, from_far), all);
-  EXPECT_EQ(from_far, end);
-  far[0].x() = std::numeric_limits<double>::quiet_NaN();
-  from_far = block.mesh.nodes;
-  EXPECT_EQ(iterationsWith(far, from_far), all);
-  EXPECT_EQ(from_far, end);
 }
 
 TEST(NewtonSolver, SaysHonestlyThatItWasStopped)
