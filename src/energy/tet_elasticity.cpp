@@ -122,24 +122,37 @@ void TetElasticity::forGroups(const Body& body) const
   }
 }
 
+double TetElasticity::sumOfEnergies(Index begin, Index end) const
+{
+  double sum = 0.0;
+  for (Index k = kTetLanes * begin; k < kTetLanes * end; ++k)
+  {
+    sum += energies_[k];
+  }
+  return sum;
+}
+
 double TetElasticity::value(const Points& x)
 {
   return parallelSum(group_count_, kGroupGrain, [&](Index begin, Index end) {
     kernels_->energy(groups_, begin, end, x.data()->data(), energies_.data());
-    double sum = 0.0;
-    for (Index k = kTetLanes * begin; k < kTetLanes * end; ++k)
-    {
-      sum += energies_[k];
-    }
-    return sum;
+    return sumOfEnergies(begin, end);
   });
 }
 
 void TetElasticity::addGradient(const Points& x, Points& gradient)
 {
   forGroups([&](Index begin, Index end) {
-    kernels_->gradient(groups_, begin, end, x.data()->data(), gradient.data()->data());
+    kernels_->gradient(groups_, begin, end, x.data()->data(), gradient.data()->data(),
+                       energies_.data());
   });
+}
+
+double TetElasticity::valueAndGradient(const Points& x, Points& gradient)
+{
+  addGradient(x, gradient);
+  return parallelSum(group_count_, kGroupGrain,
+                     [&](Index begin, Index end) { return sumOfEnergies(begin, end); });
 }
 
 void TetElasticity::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)

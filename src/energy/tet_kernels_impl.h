@@ -22,9 +22,12 @@ void tetEnergy(const TetGroups& groups, Index begin, Index end, const double* x,
 }
 
 template <typename Material>
-void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x, double* gradient)
+void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x, double* gradient,
+                 double* energies)
 {
   forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+    store(energies + 8 * static_cast<long>(group) + lane,
+          t.volume * Material::energy(t.f, t.constants));
     const PackMat p = Material::stress(t.f, t.constants);
     Pack g[padded(12)];
     for (int i = 0; i < 3; ++i)

@@ -84,20 +84,6 @@ void NewtonSolver::restoreFixed(const Points& from, Points& to) const
   }
 }
 
-NewtonSolver::Potential NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms,
-                                               const Points& x, std::vector<double>& seconds)
-{
-  Potential sum;
-  for (std::size_t k = 0; k < terms.size(); ++k)
-  {
-    const ScopedTimer timer(seconds[k]);
-    const double value = terms[k]->value(x);
-    sum.value += value;
-    sum.magnitude += std::abs(value);
-  }
-  return sum;
-}
-
 /** sum += part; returns |part|^2. */
 double NewtonSolver::addUp(const Points& part, Points& sum) const
 {
@@ -112,28 +98,32 @@ double NewtonSolver::addUp(const Points& part, Points& sum) const
   });
 }
 
-double NewtonSolver::gradient(const std::vector<EnergyTerm*>& terms, const Points& x, Points& sum,
-                              std::vector<double>& seconds)
+NewtonSolver::State NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms, const Points& x,
+                                           Points& gradient, std::vector<double>& seconds)
 {
-  setZero(sum, x.size());
+  State state;
+  setZero(gradient, x.size());
   double scale = 0.0;
   for (std::size_t k = 0; k < terms.size(); ++k)
   {
     const ScopedTimer timer(seconds[k]);
     setZero(term_gradient_, x.size());
-    terms[k]->addGradient(x, term_gradient_);
+    const double value = terms[k]->valueAndGradient(x, term_gradient_);
+    state.value += value;
+    state.magnitude += std::abs(value);
     for (const Index node : fixed_)
     {
       term_gradient_[node].setZero();
     }
-    scale += std::sqrt(addUp(term_gradient_, sum));
+    scale += std::sqrt(addUp(term_gradient_, gradient));
   }
-  const double norm = std::sqrt(dot(sum, sum));
+  const double norm = std::sqrt(dot(gradient, gradient));
+  state.residual = norm / scale;
   if (scale == 0.0)
   {
-    return norm == 0.0 ? 0.0 : std::nan("");
+    state.residual = norm == 0.0 ? 0.0 : std::nan("");
   }
-  return norm / scale;
+  return state;
 }
 
 void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points& x,
@@ -166,28 +156,29 @@ bool NewtonSolver::solve(const Points& x, double accuracy, NewtonReport& report)
   return !linear.indefinite;
 }
 
-NewtonSolver::Potential NewtonSolver::tryStep(const std::vector<EnergyTerm*>& terms,
-                                              const Points& x, double step,
-                                              std::vector<double>& seconds)
+/** Goes to trial_ and trial_gradient_. */
+NewtonSolver::State NewtonSolver::tryStep(const std::vector<EnergyTerm*>& terms, const Points& x,
+                                          double step, std::vector<double>& seconds)
 {
   for (std::size_t i = 0; i < x.size(); ++i)
   {
     trial_[i] = x[i] + step * direction_[i];
   }
-  return evaluate(terms, trial_, seconds);
+  return evaluate(terms, trial_, trial_gradient_, seconds);
 }
 
 /** Goes from x along direction_ to trial_ until the potential has fallen enough.
+ * @param state  in: at x, out: at trial_
  * @return the step's length in units of direction_; 0: nowhere */
 double NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Points& x,
-                                Potential& potential, std::vector<double>& seconds)
+                                State& state, std::vector<double>& seconds)
 {
   const double slope = dot(gradient_, direction_);
   if (!(slope < 0.0))
   {
     return 0.0;  // no way down that rounding errors leave visible
   }
-  const Potential start = potential;
+  const State start = state;
   double step = 1.0;
   for (int k = 0;; ++k, step *= 0.5)
   {
@@ -195,39 +186,39 @@ double NewtonSolver::searchLine(const std::vector<EnergyTerm*>& terms, const Poi
     {
       return 0.0;
     }
-    potential = tryStep(terms, x, step, seconds);
-    if (potential.value <= start.value + kSufficientDecrease * step * slope)
+    state = tryStep(terms, x, step, seconds);
+    if (!std::isfinite(state.residual))
+    {
+      continue;
+    }
+    if (state.value <= start.value + kSufficientDecrease * step * slope)
     {
       break;
     }
     // Close to the bottom values drown in rounding errors: what slopes say then counts.
-    const bool level = potential.value <= start.value + kNoise * start.magnitude;
-    if (level || step == 1.0)
+    const bool level = state.value <= start.value + kNoise * start.magnitude;
+    const bool flatter =
+        dot(trial_gradient_, direction_) <= (2.0 * kSufficientDecrease - 1.0) * slope;
+    const bool balanced = step == 1.0 && dot(trial_gradient_, trial_gradient_) <=
+                                             kBalances * kBalances * dot(gradient_, gradient_);
+    if (flatter && (level || balanced))
     {
-      gradient(terms, trial_, trial_gradient_, seconds);
-      const bool flatter =
-          dot(trial_gradient_, direction_) <= (2.0 * kSufficientDecrease - 1.0) * slope;
-      const bool balanced = dot(trial_gradient_, trial_gradient_) <=
-                            kBalances * kBalances * dot(gradient_, gradient_);
-      if (flatter && (level || balanced))
-      {
-        break;
-      }
+      break;
     }
   }
   // A bowl gives half of what the slope promises. Where the potential keeps that promise the way
   // leads off a saddle, and its positive part knows no length: go on.
   while (step >= 1.0 && step < kLongestStep &&
-         start.value - potential.value > kFallsAhead * step * -slope)
+         start.value - state.value > kFallsAhead * step * -slope)
   {
-    const Potential further = tryStep(terms, x, 2.0 * step, seconds);
-    if (!(further.value < potential.value))
+    const State further = tryStep(terms, x, 2.0 * step, seconds);
+    if (!(further.value < state.value) || !std::isfinite(further.residual))
     {
       tryStep(terms, x, step, seconds);
       break;
     }
     step *= 2.0;
-    potential = further;
+    state = further;
   }
   return step;
 }
@@ -240,82 +231,64 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
   const std::size_t n = x.size();
   descent_.resize(n);
   trial_.resize(n);
-  trial_gradient_.resize(n);
-  Potential potential;
-  const bool choice = other != nullptr && *other != x;
-  if (choice)
+  State state = evaluate(terms, x, gradient_, seconds);
+  if (other != nullptr && *other != x)
   {
-    potential = evaluate(terms, x, seconds);
-    const Potential there = evaluate(terms, *other, seconds);
-    if (there.value < potential.value)
+    const State there = evaluate(terms, *other, trial_gradient_, seconds);
+    if (there.value < state.value)
     {
       x.swap(*other);
-      potential = there;
+      gradient_.swap(trial_gradient_);
+      state = there;
     }
   }
-  report.residual = gradient(terms, x, gradient_, seconds);
   const double size = largest(x);
   double accuracy = kFirstAccuracy;
-  Curvature curvature = Curvature::exact;
   double indefinite_at = 0.0;  // the residual where exact curvature last failed
-  while (report.residual > options.tolerance && report.iterations < options.max_iterations)
+  bool settled = false;
+  while (!settled && std::isfinite(state.value) && state.residual > options.tolerance &&
+         report.iterations < options.max_iterations)
   {
-    if (report.iterations == 0)
-    {
-      potential = choice ? potential : evaluate(terms, x, seconds);
-      if (!std::isfinite(potential.value))
-      {
-        break;
-      }
-    }
     ++report.iterations;
     for (std::size_t i = 0; i < n; ++i)
     {
       descent_[i] = -gradient_[i];
     }
     // More than the tolerance asked for is lost on this iteration.
-    accuracy = std::max({accuracy, 1e-10, 0.3 * options.tolerance / report.residual});
+    accuracy = std::max({accuracy, 1e-10, 0.3 * options.tolerance / state.residual});
     accuracy = std::min(accuracy, 0.1);
-    curvature = report.residual < kTrustAgain * indefinite_at || indefinite_at == 0.0
-                    ? Curvature::exact
-                    : Curvature::positive;
-    assemble(terms, x, curvature, seconds);
+    const bool trusted = indefinite_at == 0.0 || state.residual < kTrustAgain * indefinite_at;
+    assemble(terms, x, trusted ? Curvature::exact : Curvature::positive, seconds);
     bool definite = solve(x, accuracy, report);
-    if (!definite && curvature == Curvature::exact)
+    if (!definite && trusted)
     {
-      indefinite_at = report.residual;
+      indefinite_at = state.residual;
       assemble(terms, x, Curvature::positive, seconds);
       definite = solve(x, accuracy, report);
     }
     const double longest = largest(direction_);
     if (definite && longest <= kUnresolved * size)
     {
-      report.converged = true;
-      return report;
+      settled = true;
+      break;
     }
-    const double step = searchLine(terms, x, potential, seconds);
+    const double before = state.residual;
+    State next = state;
+    const double step = searchLine(terms, x, next, seconds);
     if (step == 0.0)
     {
       break;
     }
     x.swap(trial_);
-    const double before = report.residual;
-    report.residual = gradient(terms, x, gradient_, seconds);
-    if (!std::isfinite(report.residual))
-    {
-      x.swap(trial_);
-      break;
-    }
-    const double left = report.residual / before;
-    if (step == 1.0 && left * longest <= options.settled)
-    {
-      report.converged = true;
-      break;
-    }
+    gradient_.swap(trial_gradient_);
+    state = next;
+    const double left = state.residual / before;
+    settled = step == 1.0 && left * longest <= options.settled;
     accuracy = left * left;
   }
-  report.finite = std::isfinite(report.residual) && std::isfinite(potential.value);
-  report.converged = report.converged || report.residual <= options.tolerance;
+  report.residual = state.residual;
+  report.finite = std::isfinite(state.residual) && std::isfinite(state.value);
+  report.converged = settled || state.residual <= options.tolerance;
   return report;
 }
 

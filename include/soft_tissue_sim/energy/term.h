@@ -31,6 +31,13 @@ class EnergyTerm
   /** gradient += d value / dx. */
   virtual void addGradient(const Points& x, Points& gradient) = 0;
 
+  /** Both at once, for little more than one of them. @return the energy, J */
+  virtual double valueAndGradient(const Points& x, Points& gradient)
+  {
+    addGradient(x, gradient);
+    return value(x);
+  }
+
   /** hessian += d2 value / dx2, or its positive semi-definite part; blocks with row <= column. */
   virtual void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) = 0;
 };

@@ -31,6 +31,7 @@ class TetElasticity : public EnergyTerm
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
+  double valueAndGradient(const Points& x, Points& gradient) override;
   void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
 
   /** Smallest det F over all tets: 1 at rest, <= 0 when one is inverted. */
@@ -42,6 +43,7 @@ class TetElasticity : public EnergyTerm
  private:
   void addTet(const TetMesh& rest, Index tet, std::size_t lane,
               const TetStiffnessParameters& parameters);
+  double sumOfEnergies(Index begin, Index end) const;
   void findPositions(const BlockMatrix& hessian);
   void state(const Points& x, double* von_mises);
   /** Calls body(begin, end) for ranges of groups, at once only for those that share no node. */

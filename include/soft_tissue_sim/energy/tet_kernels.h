@@ -32,8 +32,9 @@ struct TetKernels
   void (*constants)(double young_modulus, double poisson_ratio, double* constants);
   /** energies[group][8], J. */
   void (*energy)(const TetGroups&, Index begin, Index end, const double* x, double* energies);
-  /** gradient += forces of the groups' tets, flat, 3 per node, N. */
-  void (*gradient)(const TetGroups&, Index begin, Index end, const double* x, double* gradient);
+  /** gradient += forces of the groups' tets, flat, 3 per node, N; and their energies. */
+  void (*gradient)(const TetGroups&, Index begin, Index end, const double* x, double* gradient,
+                   double* energies);
   /**
    * Adds the second derivative, N/m, to blocks of nine values by columns. Nodes must ascend within
    * each tet: only blocks on and above the diagonal are written.

@@ -30,7 +30,7 @@ struct NewtonReport
   int linear_iterations = 0;
   double residual = 0.0;  ///< relative, as in NewtonOptions::tolerance
   bool converged = false;
-  bool finite = true;     ///< false: forces or energy overflowed; x is then the last finite iterate
+  bool finite = true;     ///< false: forces or energy were no numbers at the start
   double linear_s = 0.0;  ///< wall time in linear solves
 };
 
@@ -64,22 +64,22 @@ class NewtonSolver
   void restoreFixed(const Points& from, Points& to) const;
 
  private:
-  struct Potential
+  /** What the terms say at some positions. */
+  struct State
   {
     double value = 0.0;
     double magnitude = 0.0;  ///< sum of the terms' absolute values: the scale of rounding errors
+    double residual = 0.0;   ///< as in NewtonOptions::tolerance
   };
-  Potential evaluate(const std::vector<EnergyTerm*>& terms, const Points& x,
-                     std::vector<double>& seconds);
+  State evaluate(const std::vector<EnergyTerm*>& terms, const Points& x, Points& gradient,
+                 std::vector<double>& seconds);
   double addUp(const Points& part, Points& sum) const;
-  double gradient(const std::vector<EnergyTerm*>& terms, const Points& x, Points& sum,
-                  std::vector<double>& seconds);
   void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
                 std::vector<double>& seconds);
   bool solve(const Points& x, double accuracy, NewtonReport& report);
-  Potential tryStep(const std::vector<EnergyTerm*>& terms, const Points& x, double step,
-                    std::vector<double>& seconds);
-  double searchLine(const std::vector<EnergyTerm*>& terms, const Points& x, Potential& potential,
+  State tryStep(const std::vector<EnergyTerm*>& terms, const Points& x, double step,
+                std::vector<double>& seconds);
+  double searchLine(const std::vector<EnergyTerm*>& terms, const Points& x, State& state,
                     std::vector<double>& seconds);
 
   std::vector<Index> fixed_;

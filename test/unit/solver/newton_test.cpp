@@ -284,8 +284,9 @@ TEST(NewtonSolver, StepsBackFromForcesThatAreNoNumbers)
   Points x = {Vec3(0.5, 0.5, 0.5)};
   const NewtonReport report = minimise(newton, {&trap}, optionsOf(1e-6, 20), x);
   EXPECT_FALSE(report.converged);
-  EXPECT_FALSE(report.finite);
+  EXPECT_TRUE(report.finite) << "it never went where they are none";
   EXPECT_TRUE(x[0].allFinite());
+  EXPECT_GT(x[0].minCoeff(), 0.5);
   EXPECT_LE(x[0].maxCoeff(), 1.0);
 }
 
