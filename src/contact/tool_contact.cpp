@@ -68,6 +68,7 @@ class ToolContact::Impl
   }
 
   void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
+  void forgetField() { field_forgotten_ = true; }
   bool active() const { return !selection_.empty(); }
   const std::vector<ContactSample>& samplesAt(const Points& x);
   void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian);
@@ -93,8 +94,9 @@ class ToolContact::Impl
   Box3 swept_;           ///< the tool before and after the step
   double margin_ = 0.0;  ///< how far the body may move before the selection is too small, m
   BoxSelection selection_;
-  bool refresh_field_ = false;  ///< march anew before the field is read
-  bool field_checked_ = false;  ///< all nodes of the selection are known to have their depth
+  bool refresh_field_ = false;    ///< march anew before the field is read
+  bool field_forgotten_ = false;  ///< and so in the next steps, until that is done
+  bool field_checked_ = false;    ///< all nodes of the selection are known to have their depth
 
   Points body_;  ///< the body where samples_ were taken
   bool have_samples_ = false;
@@ -121,7 +123,7 @@ void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, cons
   // Half a radius and what the body moved last step; more is met by widenTo().
   margin_ =
       kMarginOfRadius * tool_.innerRadius() + (std::isfinite(last_motion) ? last_motion : 0.0);
-  refresh_field_ = refresh;
+  refresh_field_ = refresh || field_forgotten_;
   Box3 reach = swept_;
   reach.grow(margin_);
   selection_.clear();
@@ -134,7 +136,7 @@ void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, cons
   if (refresh && !options_.lazy_field)
   {
     field_->march(start_);
-    refresh_field_ = false;
+    refresh_field_ = field_forgotten_ = false;
     times_.field += timer.seconds();
   }
 }
@@ -165,6 +167,7 @@ void ToolContact::Impl::ensureField()
   {
     const ScopedTimer timer(times_.field);
     field_->marchUntil(start_, selection_.tetNodes());
+    field_forgotten_ = false;
   }
   refresh_field_ = false;
   field_checked_ = true;
@@ -244,6 +247,11 @@ void ToolContact::beginStep(const Points& x, const Pose& X_WT_before, const Pose
                             double /*step_s*/, bool refresh)
 {
   impl_->beginStep(x, X_WT_before, X_WT, refresh);
+}
+
+void ToolContact::forgetField()
+{
+  impl_->forgetField();
 }
 
 bool ToolContact::active() const

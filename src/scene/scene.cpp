@@ -25,6 +25,12 @@ void Scene::Impl::resetWorld()
   report_ = StepReport();
   report_.step = number;
   report_.time_s = time_s;
+  // What was found on the way must not show in what follows.
+  makeSolver();
+  for (Contact& contact : contacts_)
+  {
+    contact.term->forgetField();
+  }
 }
 
 std::uint64_t Scene::Impl::stateHash() const

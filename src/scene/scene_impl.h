@@ -87,6 +87,7 @@ class Scene::Impl
   std::unique_ptr<Gravity> gravity_;
   std::unique_ptr<NewtonSolver> newton_;
   NewtonOptions newton_options_;
+  double last_h_ = 0.0;  ///< length of the last part of a step, s
   std::vector<EnergyTerm*> terms_;
   std::vector<double> term_seconds_;
   Points extrapolated_;

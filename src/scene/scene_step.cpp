@@ -96,6 +96,11 @@ bool Scene::Impl::minimise(double from, double to)
     }
   }
   term_seconds_.assign(terms_.size(), 0.0);
+  if (h != last_h_)  // other second derivatives of inertia
+  {
+    newton_->forgetMatrix();
+    last_h_ = h;
+  }
   before_ = x_;
   if (dynamic)
   {

@@ -9,8 +9,7 @@ namespace
 class Cholesky : public LinearSolver
 {
  public:
-  LinearReport solve(const BlockMatrix& a, const Points& b, const Points& x, double tolerance,
-                     Points& d) override
+  void setMatrix(const BlockMatrix& a, const Points& x) override
   {
     if (offsets_ != a.offsets() || columns_ != a.columns())
     {
@@ -18,19 +17,24 @@ class Cholesky : public LinearSolver
     }
     fill(a);
     factor_.factorize(matrix_);
-    const bool positive = factor_.vectorD().allFinite() && factor_.vectorD().minCoeff() > 0.0;
-    if (factor_.info() == Eigen::Success && !positive)
+    iterative_->setMatrix(a, x);
+  }
+
+  LinearReport solve(const Points& b, double tolerance, Points& d) override
+  {
+    if (factor_.info() != Eigen::Success)  // singular
+    {
+      return iterative_->solve(b, tolerance, d);
+    }
+    if (!(factor_.vectorD().allFinite() && factor_.vectorD().minCoeff() > 0.0))
     {
       d.assign(b.size(), Vec3::Zero());
       return {1, true};
     }
-    if (factor_.info() != Eigen::Success)  // singular
-    {
-      return iterative_->solve(a, b, x, tolerance, d);
-    }
-    const Eigen::Map<const Eigen::VectorXd> right(b.data()->data(), 3 * a.rows());
+    const auto size = static_cast<Eigen::Index>(3 * b.size());
+    const Eigen::Map<const Eigen::VectorXd> right(b.data()->data(), size);
     d.resize(b.size());
-    Eigen::Map<Eigen::VectorXd>(d.data()->data(), 3 * a.rows()) = factor_.solve(right);
+    Eigen::Map<Eigen::VectorXd>(d.data()->data(), size) = factor_.solve(right);
     return {1, false};
   }
 

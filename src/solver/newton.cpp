@@ -27,6 +27,9 @@ constexpr double kFirstAccuracy = 0.01;
 /** After indefinite curvature, exact curvature is tried again when the residual has fallen to this
  * share. */
 constexpr double kTrustAgain = 0.1;
+/** A matrix serves for another iteration when its last one left no more of the residual than this.
+ */
+constexpr double kServesAgain = 0.1;
 /** Moves this far below the size of the coordinates are rounding errors. */
 constexpr double kUnresolved = 1e-12;
 
@@ -127,7 +130,7 @@ NewtonSolver::State NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms
 }
 
 void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points& x,
-                            Curvature curvature, std::vector<double>& seconds)
+                            Curvature curvature, NewtonReport& report, std::vector<double>& seconds)
 {
   hessian_.setZero();
   for (std::size_t k = 0; k < terms.size(); ++k)
@@ -145,15 +148,35 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
     double* block = hessian_.block(hessian_.diagonal(node));
     block[0] = block[4] = block[8] = 1.0;
   }
+  const ScopedTimer timer(report.linear_s);
+  linear_->setMatrix(hessian_, x);
 }
 
 /** Solves for direction_; false where the Hessian is indefinite. */
-bool NewtonSolver::solve(const Points& x, double accuracy, NewtonReport& report)
+bool NewtonSolver::solve(double accuracy, NewtonReport& report)
 {
   const ScopedTimer timer(report.linear_s);
-  const LinearReport linear = linear_->solve(hessian_, descent_, x, accuracy, direction_);
+  const LinearReport linear = linear_->solve(descent_, accuracy, direction_);
   report.linear_iterations += linear.iterations;
   return !linear.indefinite;
+}
+
+/** Solves for direction_ with second derivatives at x: exact, or positive where those fail. */
+bool NewtonSolver::solveAnew(const std::vector<EnergyTerm*>& terms, const Points& x,
+                             double residual, double accuracy, NewtonReport& report,
+                             std::vector<double>& seconds)
+{
+  if (indefinite_at_ == 0.0 || residual < kTrustAgain * indefinite_at_)
+  {
+    assemble(terms, x, Curvature::exact, report, seconds);
+    if (solve(accuracy, report))
+    {
+      return true;
+    }
+    indefinite_at_ = residual;
+  }
+  assemble(terms, x, Curvature::positive, report, seconds);
+  return solve(accuracy, report);
 }
 
 /** Goes to trial_ and trial_gradient_. */
@@ -244,7 +267,8 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
   }
   const double size = largest(x);
   double accuracy = kFirstAccuracy;
-  double indefinite_at = 0.0;  // the residual where exact curvature last failed
+  indefinite_at_ = 0.0;
+  matrix_serves_ = matrix_serves_ && terms == matrix_terms_;
   bool settled = false;
   while (!settled && std::isfinite(state.value) && state.residual > options.tolerance &&
          report.iterations < options.max_iterations)
@@ -257,34 +281,32 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
     // More than the tolerance asked for is lost on this iteration.
     accuracy = std::max({accuracy, 1e-10, 0.3 * options.tolerance / state.residual});
     accuracy = std::min(accuracy, 0.1);
-    const bool trusted = indefinite_at == 0.0 || state.residual < kTrustAgain * indefinite_at;
-    assemble(terms, x, trusted ? Curvature::exact : Curvature::positive, seconds);
-    bool definite = solve(x, accuracy, report);
-    if (!definite && trusted)
-    {
-      indefinite_at = state.residual;
-      assemble(terms, x, Curvature::positive, seconds);
-      definite = solve(x, accuracy, report);
-    }
+    const bool anew = !matrix_serves_;
+    const bool definite = anew ? solveAnew(terms, x, state.residual, accuracy, report, seconds)
+                               : solve(accuracy, report);
     const double longest = largest(direction_);
-    if (definite && longest <= kUnresolved * size)
+    settled = anew && definite && longest <= kUnresolved * size;
+    if (settled)
     {
-      settled = true;
       break;
     }
-    const double before = state.residual;
     State next = state;
-    const double step = searchLine(terms, x, next, seconds);
-    if (step == 0.0)
+    const double step = definite || anew ? searchLine(terms, x, next, seconds) : 0.0;
+    if (step == 0.0 && anew)
     {
       break;
     }
-    x.swap(trial_);
-    gradient_.swap(trial_gradient_);
-    state = next;
-    const double left = state.residual / before;
-    settled = step == 1.0 && left * longest <= options.settled;
-    accuracy = left * left;
+    const double left = step > 0.0 ? next.residual / state.residual : 1.0;
+    matrix_serves_ = step == 1.0 && left <= kServesAgain;
+    matrix_terms_ = terms;
+    if (step > 0.0)
+    {
+      x.swap(trial_);
+      gradient_.swap(trial_gradient_);
+      state = next;
+      settled = step == 1.0 && left * longest <= options.settled;
+      accuracy = left * left;
+    }
   }
   report.residual = state.residual;
   report.finite = std::isfinite(state.residual) && std::isfinite(state.value);

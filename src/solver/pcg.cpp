@@ -23,6 +23,10 @@ class Conjugator
   LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d)
   {
     const Index n = a.rows();
+    if (!loaded_)
+    {
+      load(a);
+    }
     d.assign(n, Vec3::Zero());
     double scale = 0.0;  // |b| becomes about 1: what is squared below stays within range
     for (const Vec3& v : b)
@@ -34,7 +38,7 @@ class Conjugator
     {
       return {0, scale != 0.0};
     }
-    load(a, b, 1.0 / scale);
+    takeRightSide(b, 1.0 / scale);
     const LinearReport report = iterate(a, n, tolerance);
     for (Index i = 0; i < n; ++i)
     {
@@ -43,6 +47,9 @@ class Conjugator
     }
     return report;
   }
+
+  /** The matrix is another now. */
+  void forgetMatrix() { loaded_ = false; }
 
   /** Takes the coarse level of the next solves. */
   void setGroups(const RigidGroups& groups)
@@ -56,15 +63,12 @@ class Conjugator
   }
 
  private:
-  void load(const BlockMatrix& a, const Points& b, double scale)
+  void load(const BlockMatrix& a)
   {
     const Index n = a.rows();
+    loaded_ = true;
     values_.resize(a.values().size());
     inverse_.resize(9 * static_cast<std::size_t>(n) + 1);
-    residual_.resize(3 * static_cast<std::size_t>(n));
-    direction_.resize(residual_.size());
-    image_.resize(residual_.size());
-    solution_.assign(residual_.size(), Real(0));
     parallelFor(n, kGrain, [&](Index begin, Index end) {
       for (Index row = begin; row < end; ++row)
       {
@@ -75,12 +79,23 @@ class Conjugator
         {
           inverse_[9 * row + k] = static_cast<Real>(usable ? inverse.data()[k] : k % 4 == 0);
         }
-        for (int k = 0; k < 3; ++k)
-        {
-          residual_[3 * row + k] = static_cast<Real>(scale * b[row][k]);
-        }
       }
     });
+  }
+
+  void takeRightSide(const Points& b, double scale)
+  {
+    residual_.resize(3 * b.size());
+    direction_.resize(residual_.size());
+    image_.resize(residual_.size());
+    solution_.assign(residual_.size(), Real(0));
+    for (std::size_t i = 0; i < b.size(); ++i)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        residual_[3 * i + k] = static_cast<Real>(scale * b[i][k]);
+      }
+    }
   }
 
   void loadRow(const BlockMatrix& a, Index row)
@@ -170,6 +185,7 @@ class Conjugator
     return product;
   }
 
+  bool loaded_ = false;
   std::vector<Real> values_;   ///< the matrix, both triangles
   std::vector<Real> inverse_;  ///< of its diagonal blocks
   std::vector<Real> residual_, direction_, image_, solution_;
@@ -180,20 +196,27 @@ class Conjugator
 class Pcg : public LinearSolver
 {
  public:
-  LinearReport solve(const BlockMatrix& a, const Points& b, const Points& x, double tolerance,
-                     Points& d) override
+  void setMatrix(const BlockMatrix& a, const Points& x) override
   {
+    matrix_ = &a;
+    single_.forgetMatrix();
+    double_.forgetMatrix();
     if (groups_.outdated(x))
     {
       groups_.build(a, x);
       single_.setGroups(groups_);
       double_.setGroups(groups_);
     }
-    return tolerance >= kSingleTolerance ? single_.solve(a, b, tolerance, d)
-                                         : double_.solve(a, b, tolerance, d);
+  }
+
+  LinearReport solve(const Points& b, double tolerance, Points& d) override
+  {
+    return tolerance >= kSingleTolerance ? single_.solve(*matrix_, b, tolerance, d)
+                                         : double_.solve(*matrix_, b, tolerance, d);
   }
 
  private:
+  const BlockMatrix* matrix_ = nullptr;
   RigidGroups groups_;
   Conjugator<float> single_;
   Conjugator<double> double_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/energy/block_matrix.h"
+#include "soft_tissue_sim/solver/linear_solver.h"
 #include "support/mesh_samples.h"
 
 namespace soft_tissue::test
@@ -26,6 +27,13 @@ inline Points randomPoints(Index count, unsigned seed)
     points.emplace_back(x, y, uniform(random));
   }
   return points;
+}
+
+inline LinearReport solveWith(LinearSolver& solver, const BlockMatrix& a, const Points& b,
+                              const Points& x, double tolerance, Points& d)
+{
+  solver.setMatrix(a, x);
+  return solver.solve(b, tolerance, d);
 }
 
 /** Adds B B^T with a random 12 x 12 B for each tet: symmetric positive semi-definite. */

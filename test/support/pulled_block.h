@@ -25,6 +25,7 @@ inline NewtonReport minimise(NewtonSolver& newton, const Terms& terms, const New
                              Points& x)
 {
   std::vector<double> seconds(terms.size(), 0.0);
+  newton.forgetMatrix();
   return newton.minimise(terms, options, x, seconds);
 }
 

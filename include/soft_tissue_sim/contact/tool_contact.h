@@ -56,6 +56,9 @@ class ToolContact : public EnergyTerm
   void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s,
                  bool refresh);
 
+  /** Has the nodal depths marched anew before they are next read, whatever beginStep() is told. */
+  void forgetField();
+
   /** False when nothing can touch during this step: value, gradient and Hessian are then zero. */
   bool active() const;
 

@@ -19,19 +19,24 @@ struct LinearReport
   bool indefinite = false;  ///< A was found not to be positive definite
 };
 
-/** Solves A d = b for symmetric positive definite A of 3 x 3 blocks. */
+/** Solves A d = b for symmetric positive definite A of 3 x 3 blocks, of one pattern. */
 class LinearSolver
 {
  public:
   virtual ~LinearSolver() = default;
 
   /**
-   * @param x          positions of the nodes, m: what moves like a rigid body; N x 3
+   * Takes the matrix of the next solves.
+   * @param a  stays as it is until they are done
+   * @param x  positions of the nodes, m: what moves like a rigid body; N x 3
+   */
+  virtual void setMatrix(const BlockMatrix& a, const Points& x) = 0;
+
+  /**
    * @param tolerance  stop when |b - A d| <= tolerance |b|; direct solvers ignore it
    * @param d          out, N x 3; of an indefinite A what was found until then, perhaps zero
    */
-  virtual LinearReport solve(const BlockMatrix& a, const Points& b, const Points& x,
-                             double tolerance, Points& d) = 0;
+  virtual LinearReport solve(const Points& b, double tolerance, Points& d) = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();

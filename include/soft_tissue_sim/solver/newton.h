@@ -38,7 +38,9 @@ struct NewtonReport
  * Minimises a sum of energy terms over the free nodes by Newton's method with line search.
  *
  * Exact second derivatives first: they converge quadratically. Where they turn out indefinite, that
- * iteration and the next few take their positive part instead, which always leads down.
+ * iteration and the next few take their positive part instead, which always leads down. Second
+ * derivatives serve on, from one minimisation of the same terms to the next as well, as long as
+ * they lead where they should.
  */
 class NewtonSolver
 {
@@ -60,6 +62,9 @@ class NewtonSolver
   NewtonReport minimise(const std::vector<EnergyTerm*>& terms, const NewtonOptions& options,
                         Points& x, std::vector<double>& seconds, Points* other = nullptr);
 
+  /** Makes the next minimisation begin with second derivatives of its own. */
+  void forgetMatrix() { matrix_serves_ = false; }
+
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
 
@@ -75,8 +80,10 @@ class NewtonSolver
                  std::vector<double>& seconds);
   double addUp(const Points& part, Points& sum) const;
   void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
-                std::vector<double>& seconds);
-  bool solve(const Points& x, double accuracy, NewtonReport& report);
+                NewtonReport& report, std::vector<double>& seconds);
+  bool solve(double accuracy, NewtonReport& report);
+  bool solveAnew(const std::vector<EnergyTerm*>& terms, const Points& x, double residual,
+                 double accuracy, NewtonReport& report, std::vector<double>& seconds);
   State tryStep(const std::vector<EnergyTerm*>& terms, const Points& x, double step,
                 std::vector<double>& seconds);
   double searchLine(const std::vector<EnergyTerm*>& terms, const Points& x, State& state,
@@ -86,6 +93,9 @@ class NewtonSolver
   std::vector<Index> fixed_blocks_;  ///< blocks in a row or column of a fixed node
   BlockMatrix hessian_;
   std::unique_ptr<LinearSolver> linear_;
+  bool matrix_serves_ = false;  ///< hessian_ is still good enough for a direction
+  std::vector<EnergyTerm*> matrix_terms_;
+  double indefinite_at_ = 0.0;  ///< the residual where exact curvature last failed
   Points gradient_, term_gradient_, trial_gradient_, descent_, direction_, trial_;
 };
 

@@ -55,7 +55,7 @@ TEST_P(EveryLinearSolver, FindsTheDenseSolution)
     const Eigen::MatrixXd whole = dense(a);
     const Eigen::VectorXd exact = whole.ldlt().solve(flat(b));
     Points d;
-    const LinearReport report = solver_->solve(a, b, placesOf(a), 1e-12, d);
+    const LinearReport report = solveWith(*solver_, a, b, placesOf(a), 1e-12, d);
     EXPECT_FALSE(report.indefinite);
     EXPECT_GT(report.iterations, 0);
     ASSERT_EQ(d.size(), b.size());
@@ -73,7 +73,7 @@ TEST_P(EveryLinearSolver, KeepsToTheToleranceAskedFor)
   for (const double tolerance : {0.1, 1e-2, 1e-4, 1e-8, 1e-11})
   {
     Points d = randomPoints(150, 23);  // what stood there before does not matter
-    solver_->solve(a, b, placesOf(a), tolerance, d);
+    solveWith(*solver_, a, b, placesOf(a), tolerance, d);
     EXPECT_LT(relativeResidual(a, b, d), 1.01 * tolerance);
   }
 }
@@ -82,7 +82,8 @@ TEST_P(EveryLinearSolver, AnswersNothingWithNothing)
 {
   const BlockMatrix a = randomPositiveMatrix(10, 20, 31);
   Points d = randomPoints(10, 32);
-  const LinearReport report = solver_->solve(a, Points(10, Vec3::Zero()), placesOf(a), 1e-6, d);
+  const LinearReport report =
+      solveWith(*solver_, a, Points(10, Vec3::Zero()), placesOf(a), 1e-6, d);
   EXPECT_FALSE(report.indefinite);
   EXPECT_EQ(d, Points(10, Vec3::Zero()));
 }
@@ -105,7 +106,7 @@ TEST_P(EveryLinearSolver, IsNotMisledByTheMatrixBefore)
     }
     const Points b = randomPoints(a.rows(), 45);
     Points d;
-    solver_->solve(a, b, placesOf(a), 1e-12, d);
+    solveWith(*solver_, a, b, placesOf(a), 1e-12, d);
     EXPECT_LT(relativeResidual(a, b, d), 1.01e-12) << "matrix " << k;
   }
 }
@@ -144,7 +145,7 @@ TEST_P(EveryLinearSolver, SeesAnotherPatternOfAsManyBlocks)
     }
     const Points b = randomPoints(4, 51);
     Points d;
-    EXPECT_FALSE(solver_->solve(a, b, placesOf(a), 1e-12, d).indefinite);
+    EXPECT_FALSE(solveWith(*solver_, a, b, placesOf(a), 1e-12, d).indefinite);
     EXPECT_LT(relativeResidual(a, b, d), 1.01e-12);
   }
 }
@@ -162,7 +163,7 @@ TEST_P(EveryLinearSolver, SaysWhenAMatrixIsIndefinite)
     }
     const Points b = randomPoints(30, 62);
     Points d;
-    EXPECT_TRUE(solver_->solve(a, b, placesOf(a), 1e-10, d).indefinite) << pull;
+    EXPECT_TRUE(solveWith(*solver_, a, b, placesOf(a), 1e-10, d).indefinite) << pull;
     ASSERT_EQ(d.size(), b.size());
     EXPECT_TRUE(flat(d).allFinite());
     EXPECT_GE(flat(d).dot(flat(b)), 0.0) << "what is found until then leads down";
@@ -181,11 +182,11 @@ TEST_P(EveryLinearSolver, SolvesASingularSystemThatHasASolution)
   Points b = randomPoints(12, 72);
   b[lone].setZero();
   Points d;
-  EXPECT_FALSE(solver_->solve(a, b, placesOf(a), 1e-10, d).indefinite);
+  EXPECT_FALSE(solveWith(*solver_, a, b, placesOf(a), 1e-10, d).indefinite);
   EXPECT_LT(relativeResidual(a, b, d), 1.01e-10);
 
   b[lone] = Vec3(0.0, 1.0, 0.0);
-  EXPECT_TRUE(solver_->solve(a, b, placesOf(a), 1e-10, d).indefinite)
+  EXPECT_TRUE(solveWith(*solver_, a, b, placesOf(a), 1e-10, d).indefinite)
       << "no solution, and nobody said so";
   EXPECT_TRUE(flat(d).allFinite());
 }
@@ -196,15 +197,15 @@ TEST_P(EveryLinearSolver, DoesNotPassOffANumberFromNoNumber)
   BlockMatrix a = randomPositiveMatrix(12, 25, 73);
   Points b = randomPoints(12, 74), d;
   b[3].y() = nan;
-  LinearReport report = solver_->solve(a, b, placesOf(a), 1e-10, d);
+  LinearReport report = solveWith(*solver_, a, b, placesOf(a), 1e-10, d);
   EXPECT_TRUE(report.indefinite || !flat(d).allFinite()) << "right-hand side";
   a.block(a.diagonal(5))[4] = nan;
-  report = solver_->solve(a, randomPoints(12, 75), placesOf(a), 1e-10, d);
+  report = solveWith(*solver_, a, randomPoints(12, 75), placesOf(a), 1e-10, d);
   EXPECT_TRUE(report.indefinite || !flat(d).allFinite()) << "matrix";
   // And is none the worse for it.
   a = randomPositiveMatrix(12, 25, 73);
   b = randomPoints(12, 76);
-  EXPECT_FALSE(solver_->solve(a, b, placesOf(a), 1e-10, d).indefinite);
+  EXPECT_FALSE(solveWith(*solver_, a, b, placesOf(a), 1e-10, d).indefinite);
   EXPECT_LT(relativeResidual(a, b, d), 1.01e-10);
 }
 
@@ -224,7 +225,7 @@ TEST_P(EveryLinearSolver, HasTheSameBitsForAnyThreadsAndInstructionSet)
       forceInstructionSet(static_cast<InstructionSet>(set));
       setThreadCount(threads);
       solutions.emplace_back();
-      GetParam().make()->solve(a, b, placesOf(a), 1e-9, solutions.back());
+      solveWith(*GetParam().make(), a, b, placesOf(a), 1e-9, solutions.back());
     }
   }
   setThreadCount(1);
@@ -240,7 +241,7 @@ TEST(Pcg, NeedsNoMoreIterationsThanUnknowns)
   const BlockMatrix a = randomPositiveMatrix(15, 40, 91);
   const Points b = randomPoints(15, 92);
   Points d;
-  EXPECT_LE(makePcg()->solve(a, b, placesOf(a), 1e-6, d).iterations, 45);
+  EXPECT_LE(solveWith(*makePcg(), a, b, placesOf(a), 1e-6, d).iterations, 45);
 }
 
 TEST(Pcg, NeedsOneIterationForAMatrixOfDiagonalBlocks)
@@ -260,7 +261,7 @@ TEST(Pcg, NeedsOneIterationForAMatrixOfDiagonalBlocks)
     a.add(i, i, b * b.transpose() + 0.1 * Mat3::Identity());
   }
   Points d;
-  EXPECT_EQ(makePcg()->solve(a, randomPoints(20, 94), placesOf(a), 1e-10, d).iterations, 1);
+  EXPECT_EQ(solveWith(*makePcg(), a, randomPoints(20, 94), placesOf(a), 1e-10, d).iterations, 1);
 }
 
 }  // namespace

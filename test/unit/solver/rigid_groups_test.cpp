@@ -78,8 +78,8 @@ TEST(Pcg, RigidGroupsShortenASlendersBodysWayToBalance)
   Points d;
   // Equal places leave no groups but points: neighbours alone have to agree.
   const int alone =
-      makePcg()->solve(bar.matrix, b, Points(b.size(), Vec3::Zero()), 1e-8, d).iterations;
-  const int grouped = makePcg()->solve(bar.matrix, b, bar.mesh.nodes, 1e-8, d).iterations;
+      solveWith(*makePcg(), bar.matrix, b, Points(b.size(), Vec3::Zero()), 1e-8, d).iterations;
+  const int grouped = solveWith(*makePcg(), bar.matrix, b, bar.mesh.nodes, 1e-8, d).iterations;
   std::printf("  %d iterations, without rotations of groups %d\n", grouped, alone);
   EXPECT_LT(3 * grouped, 2 * alone);
   EXPECT_LT((flat(b) - dense(bar.matrix) * flat(d)).norm(), 1.01e-8 * flat(b).norm());
@@ -91,7 +91,7 @@ TEST(Pcg, RigidGroupsLeaveFixedNodesWhereTheyAre)
   for (const double tolerance : {1e-2, 1e-8})  // single and double precision
   {
     Points d;
-    makePcg()->solve(bar.matrix, bar.load(), bar.mesh.nodes, tolerance, d);
+    solveWith(*makePcg(), bar.matrix, bar.load(), bar.mesh.nodes, tolerance, d);
     for (const Index node : bar.fixed)
     {
       EXPECT_EQ(d[node], Vec3::Zero());
