@@ -6,7 +6,7 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 512;
+constexpr Index kGrain = 8192;
 }
 
 void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, Index first_node,

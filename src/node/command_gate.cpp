@@ -19,13 +19,13 @@ double watchdogNow()
 
 }  // namespace
 
-CommandGate::CommandGate(std::string tool, CommandSlot& slot, double watchdog_s)
-    : tool_(std::move(tool)), slot_(slot), watchdog_s_(watchdog_s)
+CommandGate::CommandGate(std::string tool, Sink sink, double watchdog_s)
+    : tool_(std::move(tool)), sink_(std::move(sink)), watchdog_s_(watchdog_s)
 {}
 
-void CommandGate::accept(const soft_tissue::Pose& X_WT)
+void CommandGate::accept(const soft_tissue::Pose& X_WT, const ros::Time& stamp)
 {
-  slot_.put(X_WT);
+  sink_(X_WT, stamp.isZero() ? std::nullopt : std::make_optional(stamp.toSec()));
   last_accepted_s_ = watchdogNow();
   ++accepted_;
 }

@@ -90,6 +90,8 @@ void Diagnostics::reportPhysics(DiagnosticStatusWrapper& status)
   status.add("deepest penetration (m)", report_.max_penetration_m);
   status.add("residual", report_.residual);
   status.add("converged", static_cast<bool>(report_.converged));
+  status.add("out of time", static_cast<bool>(report_.out_of_time));
+  status.add("position error (m)", report_.position_error_m);
   status.add("marker arrays built", scene_topics_.markerArraysBuilt());
 }
 

@@ -162,6 +162,8 @@ SimStats statsMessage(const Snapshot& snapshot, double real_time_factor, const S
   message.linear_iterations = static_cast<std::uint32_t>(report.linear_iterations);
   message.residual = report.residual;
   message.converged = report.converged;
+  message.out_of_time = report.out_of_time;
+  message.position_error = report.position_error_m;
   message.halvings = static_cast<std::uint32_t>(report.halvings);
   message.held = report.held;
   message.min_det_f = report.min_det_f;

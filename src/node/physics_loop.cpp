@@ -30,8 +30,7 @@ PhysicsLoop::PhysicsLoop(soft_tissue::Scene scene, const Config& config,
     : scene_(std::move(scene)),
       config_(config),
       on_failure_(std::move(on_failure)),
-      slots_(scene_.tools().size()),
-      targets_W_(scene_.tools().size()),
+      commands_(scene_.tools().size()),
       schedule_(makeSchedule(scene_.config().time_step_s, config))
 {
   counters_.paused = config.paused;
@@ -96,7 +95,7 @@ bool PhysicsLoop::stepIfDue()
       config_.time_source != TimeSource::ros_clock && config_.real_time_factor == 0.0;
   if (as_fast_as_possible)
   {
-    advance();
+    advance(true);
     return true;
   }
   if (!clockHasStarted())
@@ -105,10 +104,17 @@ bool PhysicsLoop::stepIfDue()
   }
   const bool due = schedule_.due(clockNow()) > 0;
   counters_.missed_deadlines = schedule_.dropped();
-  counters_.clock_jumps_back = schedule_.jumpsBack();
+  if (counters_.clock_jumps_back != schedule_.jumpsBack())
+  {
+    counters_.clock_jumps_back = schedule_.jumpsBack();
+    for (CommandStream& commands : commands_)
+    {
+      commands.newest();  // which is later than all times now
+    }
+  }
   if (due)
   {
-    advance();
+    advance(false);
   }
   return due;
 }
@@ -124,20 +130,32 @@ bool PhysicsLoop::clockHasStarted()
   return clock_started_;
 }
 
-void PhysicsLoop::advance()
+void PhysicsLoop::command(std::size_t tool, const soft_tissue::Pose& X_WT,
+                          std::optional<double> sent_s)
 {
-  for (std::size_t tool = 0; tool < slots_.size(); ++tool)
+  commands_[tool].put(X_WT, sent_s, clockNow());
+}
+
+/** Tells the scene where tools go; at_once: to the last commands, as nothing paces the steps. */
+void PhysicsLoop::aimTools(bool at_once)
+{
+  const double time_s = config_.time_source == TimeSource::ros_clock
+                            ? schedule_.nextDue()
+                            : command_clock_.next(clockNow(), schedule_.period());
+  for (std::size_t tool = 0; tool < commands_.size(); ++tool)
   {
-    soft_tissue::Pose X_WT;
-    if (slots_[tool].take(X_WT))
+    const std::optional<soft_tissue::Pose> X_WT =
+        at_once ? commands_[tool].newest() : commands_[tool].at(time_s);
+    if (X_WT)
     {
-      targets_W_[tool] = X_WT;
-    }
-    if (targets_W_[tool])
-    {
-      scene_.setToolTarget(tool, *targets_W_[tool]);
+      scene_.setToolTarget(tool, *X_WT);
     }
   }
+}
+
+void PhysicsLoop::advance(bool at_once)
+{
+  aimTools(at_once);
   const double due_time = schedule_.nextDue();
   scene_.step();
   schedule_.stepDone();
@@ -173,6 +191,7 @@ void PhysicsLoop::restartClocks()
 {
   schedule_.anchor(clockNow());
   meter_.restart(ros::SteadyTime::now().toSec());
+  command_clock_.restart();
   stamp_ = ros::Time::now();
 }
 
@@ -197,7 +216,7 @@ std::optional<double> PhysicsLoop::step(std::uint32_t steps)
     }
     for (std::uint32_t i = 0; i < steps && !stopping_; ++i)
     {
-      advance();
+      advance(true);
     }
     time = scene_.time();
   });
@@ -207,11 +226,9 @@ std::optional<double> PhysicsLoop::step(std::uint32_t steps)
 void PhysicsLoop::resetWorld()
 {
   execute([this] {
-    for (std::size_t tool = 0; tool < slots_.size(); ++tool)
+    for (CommandStream& commands : commands_)
     {
-      soft_tissue::Pose forgotten;
-      slots_[tool].take(forgotten);
-      targets_W_[tool].reset();
+      commands.clear();
     }
     scene_.resetWorld();
     ++resets_;

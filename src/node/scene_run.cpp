@@ -183,6 +183,7 @@ void runScene(const RunOptions& options)
       std::fprintf(stderr, "warning: bag %s: %s\n", options.bag_in.c_str(), warning.c_str());
     }
   }
+  config.solver.budget_ms.reset();  // the same bits on a busy machine
   const std::uint64_t steps = stepCount(options, config, poses);
   soft_tissue::Scene scene = buildScene(config);
   for (const soft_tissue::TissueInfo& tissue : scene.tissues())

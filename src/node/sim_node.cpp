@@ -54,8 +54,12 @@ void SimNode::addInputs(const std::vector<soft_tissue::ToolConfig>& tools)
     {
       listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
     }
-    CommandGate& gate =
-        gates_.emplace_back(tools[tool].name, loop_.commandSlot(tool), params_.watchdog_s);
+    CommandGate& gate = gates_.emplace_back(
+        tools[tool].name,
+        [this, tool](const soft_tissue::Pose& X_WT, std::optional<double> sent_s) {
+          loop_.command(tool, X_WT, sent_s);
+        },
+        params_.watchdog_s);
     if (source.kind == Kind::topic)
     {
       topic_inputs_.emplace_back(node_, tools[tool].name + "/" + source.name, gate, buffer_,

@@ -101,7 +101,7 @@ TopicInput::Resolved TopicInput::resolve(const geometry_msgs::PoseStamped& comma
       return Resolved::refused;
     }
   }
-  gate_.accept(X_WT);
+  gate_.accept(X_WT, command.header.stamp);
   return Resolved::yes;
 }
 
@@ -141,7 +141,7 @@ void TfInput::poll()
     gate_.reject(rejection, "frame " + frame_);
     return;
   }
-  gate_.accept(pose);
+  gate_.accept(pose, X_WT.header.stamp);
 }
 
 void TfInput::onMissing(const std::string& reason)

@@ -15,7 +15,7 @@ void Scene::Impl::resetWorld()
   {
     Tool& tool = tools_[k];
     tool.X_WT =
-        tool.track ? tool.track->at(report_.time_s) : config_.tools[k].initial_pose.toPose();
+        tool.track.empty() ? config_.tools[k].initial_pose.toPose() : tool.track.at(report_.time_s);
     tool.X_WT_goal = tool.X_WT;
     tool.state = ToolState();
     tool.state.X_WT = tool.X_WT;

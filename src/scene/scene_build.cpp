@@ -146,8 +146,12 @@ void Scene::Impl::addTool(std::size_t index)
   tool.X_WT = tool_config.initial_pose.toPose();
   if (tool_config.pose_source.kind == PoseSourceConfig::Kind::keyframes)
   {
-    tool.track.emplace(tool_config.pose_source.keyframes);
-    tool.X_WT = tool.track->at(0.0);
+    for (const PoseKeyframe& keyframe : tool_config.pose_source.keyframes)
+    {
+      tool.track.times_s.push_back(keyframe.time_s);
+      tool.track.poses_W.push_back(keyframe.pose.toPose());
+    }
+    tool.X_WT = tool.track.at(0.0);
   }
   tool.X_WT_goal = tool.X_WT;
   tool.state.X_WT = tool.X_WT;

@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "pose_track.h"
+#include "soft_tissue_sim/base/pose_series.h"
+#include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
@@ -37,7 +38,7 @@ class Scene::Impl
   struct Tool
   {
     RigidBodyShape shape;
-    std::optional<PoseTrack> track;
+    PoseSeries track;                   ///< key frames; empty: moved from outside
     Pose X_WT = Pose::Identity();       ///< now
     Pose X_WT_goal = Pose::Identity();  ///< at the end of the step
     ToolState state;
@@ -73,6 +74,8 @@ class Scene::Impl
   void aimTools();
   bool advance(double from, double to, int depth);
   bool minimise(double from, double to);
+  double timeLeft() const;
+  void standStillIfBetter(double potential);
   void predict(double h);
   void stop();
   void finishStep();
@@ -87,7 +90,9 @@ class Scene::Impl
   std::unique_ptr<Gravity> gravity_;
   std::unique_ptr<NewtonSolver> newton_;
   NewtonOptions newton_options_;
-  double last_h_ = 0.0;  ///< length of the last part of a step, s
+  Timer step_timer_;
+  double finish_s_ = 0.0;  ///< what reading out the last step took
+  double last_h_ = 0.0;    ///< length of the last part of a step, s
   std::vector<EnergyTerm*> terms_;
   std::vector<double> term_seconds_;
   Points extrapolated_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "scene_impl.h"
 #include "soft_tissue_sim/base/timer.h"
@@ -17,16 +18,16 @@ void Scene::Impl::aimTools()
   const double end_s = report_.time_s + config_.time_step_s;
   for (Tool& tool : tools_)
   {
-    if (tool.track)
+    if (!tool.track.empty())
     {
-      tool.X_WT_goal = tool.track->at(end_s);
+      tool.X_WT_goal = tool.track.at(end_s);
     }
   }
 }
 
 const StepReport& Scene::Impl::step()
 {
-  const Timer timer;
+  step_timer_.restart();
   const std::uint64_t number = report_.step + 1;
   const double start_s = report_.time_s;
   aimTools();
@@ -40,9 +41,19 @@ const StepReport& Scene::Impl::step()
     report_.held = true;
   }
   report_.time_s = start_s + config_.time_step_s;
+  const Timer finish;
   finishStep();
-  report_.ms.total = 1e3 * timer.seconds();
+  finish_s_ = finish.seconds();
+  report_.ms.total = 1e3 * step_timer_.seconds();
   return report_;
+}
+
+/** Wall time the step's minimisation still has, s. */
+double Scene::Impl::timeLeft() const
+{
+  return config_.solver.budget_ms
+             ? 1e-3 * *config_.solver.budget_ms - finish_s_ - step_timer_.seconds()
+             : std::numeric_limits<double>::infinity();
 }
 
 /** Moves on through the part [from, to] of the step, halving it as often as needed. */
@@ -106,6 +117,7 @@ bool Scene::Impl::minimise(double from, double to)
   {
     predict(h);
   }
+  newton_options_.budget_s = timeLeft();
   const NewtonReport newton = newton_->minimise(terms_, newton_options_, x_, term_seconds_,
                                                 dynamic ? &extrapolated_ : nullptr);
   for (std::size_t k = 0; k < first_contact; ++k)
@@ -117,10 +129,16 @@ bool Scene::Impl::minimise(double from, double to)
   report_.linear_iterations += newton.linear_iterations;
   report_.residual = newton.residual;
   report_.converged = newton.converged;
+  report_.out_of_time = newton.out_of_time;
+  report_.position_error_m = newton.position_error_m;
   const double failed = std::max(kFailedResidual, config_.solver.tolerance);
-  if (!newton.finite || !(newton.converged || newton.residual <= failed))
+  if (!newton.finite || !(newton.converged || newton.out_of_time || newton.residual <= failed))
   {
     return false;
+  }
+  if (newton.out_of_time && newton.residual > failed)
+  {
+    standStillIfBetter(newton.value);
   }
   if (!dynamic)
   {
@@ -134,6 +152,21 @@ bool Scene::Impl::minimise(double from, double to)
     v_[i] = v;
   }
   return true;
+}
+
+/** A step left far from its end must not add energy: the potential there is at most that of a body
+ * that stays where it was. */
+void Scene::Impl::standStillIfBetter(double potential)
+{
+  double still = 0.0;
+  for (EnergyTerm* term : terms_)
+  {
+    still += term->value(before_);
+  }
+  if (still < potential)
+  {
+    x_ = before_;
+  }
 }
 
 /** Where a minimisation may start: the nodes as if no force acted, and as if the last acceleration

@@ -27,7 +27,11 @@ const Section<SolverConfig>& solverSection()
                                               {"cholesky", LinearSolverKind::cholesky}},
                                              {"multigrid"}),
                     "Solver of the linear systems.")
-          .notAvailable("budget_ms", "Wall time a step may take.");
+          .optional("budget_ms", &SolverConfig::budget_ms,
+                    maybe(number(0.0, 1e6, Ends::open_below), "none", true),
+                    "Wall time a step may take in sim_node: it then ends with the forces balanced "
+                    "as far as time allowed, and says so in stats. run_scene ignores it: a replay "
+                    "must not depend on the machine's load. none: a step takes the time it needs.");
   return section;
 }
 

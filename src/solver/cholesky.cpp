@@ -20,22 +20,22 @@ class Cholesky : public LinearSolver
     iterative_->setMatrix(a, x);
   }
 
-  LinearReport solve(const Points& b, double tolerance, Points& d) override
+  LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) override
   {
     if (factor_.info() != Eigen::Success)  // singular
     {
-      return iterative_->solve(b, tolerance, d);
+      return iterative_->solve(b, tolerance, most_iterations, d);
     }
     if (!(factor_.vectorD().allFinite() && factor_.vectorD().minCoeff() > 0.0))
     {
       d.assign(b.size(), Vec3::Zero());
-      return {1, true};
+      return {1, 1.0, true, false};
     }
     const auto size = static_cast<Eigen::Index>(3 * b.size());
     const Eigen::Map<const Eigen::VectorXd> right(b.data()->data(), size);
     d.resize(b.size());
     Eigen::Map<Eigen::VectorXd>(d.data()->data(), size) = factor_.solve(right);
-    return {1, false};
+    return {1, 0.0, false, false};
   }
 
  private:

@@ -10,7 +10,7 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 512;
+constexpr Index kGrain = 8192;  // for fewer nodes other threads cost more than they do
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kMaxBacktracks = 40;
 /** Rounding errors of a potential, as a share of the sum of its terms: materials subtract terms of
@@ -27,9 +27,13 @@ constexpr double kFirstAccuracy = 0.01;
 /** After indefinite curvature, exact curvature is tried again when the residual has fallen to this
  * share. */
 constexpr double kTrustAgain = 0.1;
-/** A matrix serves for another iteration when its last one left no more of the residual than this.
- */
+/** A matrix serves for another iteration when its last one left no more of the residual than this
+ * beyond what the linear solver left. */
 constexpr double kServesAgain = 0.1;
+/** Where time is short, one that left no more than this does. */
+constexpr double kLeads = 0.5;
+/** Linear iterations that are done however little time there is. */
+constexpr int kFewestLinear = 8;
 /** Moves this far below the size of the coordinates are rounding errors. */
 constexpr double kUnresolved = 1e-12;
 
@@ -120,11 +124,11 @@ NewtonSolver::State NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms
     }
     scale += std::sqrt(addUp(term_gradient_, gradient));
   }
-  const double norm = std::sqrt(dot(gradient, gradient));
-  state.residual = norm / scale;
+  state.force = std::sqrt(dot(gradient, gradient));
+  state.residual = state.force / scale;
   if (scale == 0.0)
   {
-    state.residual = norm == 0.0 ? 0.0 : std::nan("");
+    state.residual = state.force == 0.0 ? 0.0 : std::nan("");
   }
   return state;
 }
@@ -132,6 +136,7 @@ NewtonSolver::State NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms
 void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points& x,
                             Curvature curvature, NewtonReport& report, std::vector<double>& seconds)
 {
+  const Timer whole;
   hessian_.setZero();
   for (std::size_t k = 0; k < terms.size(); ++k)
   {
@@ -148,30 +153,47 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
     double* block = hessian_.block(hessian_.diagonal(node));
     block[0] = block[4] = block[8] = 1.0;
   }
-  const ScopedTimer timer(report.linear_s);
-  linear_->setMatrix(hessian_, x);
+  {
+    const ScopedTimer timer(report.linear_s);
+    linear_->setMatrix(hessian_, x);
+  }
+  assembly_s_ = whole.seconds();
 }
 
-/** Solves for direction_; false where the Hessian is indefinite. */
-bool NewtonSolver::solve(double accuracy, NewtonReport& report)
+int NewtonSolver::affordableLinearIterations() const
 {
-  const ScopedTimer timer(report.linear_s);
-  const LinearReport linear = linear_->solve(descent_, accuracy, direction_);
+  const double left_s = budget_s_ - evaluation_s_ - timer_.seconds();
+  constexpr double kMost = std::numeric_limits<int>::max();
+  return left_s < kMost * linear_iteration_s_
+             ? std::max(static_cast<int>(left_s / linear_iteration_s_), kFewestLinear)
+             : std::numeric_limits<int>::max();
+}
+
+/** Solves for direction_. */
+LinearReport NewtonSolver::solve(double accuracy, NewtonReport& report)
+{
+  const Timer timer;
+  const LinearReport linear =
+      linear_->solve(descent_, accuracy, affordableLinearIterations(), direction_);
+  const double spent_s = timer.seconds();
+  report.linear_s += spent_s;
   report.linear_iterations += linear.iterations;
-  return !linear.indefinite;
+  linear_iteration_s_ = spent_s / std::max(linear.iterations, 1);
+  return linear;
 }
 
 /** Solves for direction_ with second derivatives at x: exact, or positive where those fail. */
-bool NewtonSolver::solveAnew(const std::vector<EnergyTerm*>& terms, const Points& x,
-                             double residual, double accuracy, NewtonReport& report,
-                             std::vector<double>& seconds)
+LinearReport NewtonSolver::solveAnew(const std::vector<EnergyTerm*>& terms, const Points& x,
+                                     double residual, double accuracy, NewtonReport& report,
+                                     std::vector<double>& seconds)
 {
   if (indefinite_at_ == 0.0 || residual < kTrustAgain * indefinite_at_)
   {
     assemble(terms, x, Curvature::exact, report, seconds);
-    if (solve(accuracy, report))
+    const LinearReport linear = solve(accuracy, report);
+    if (!linear.indefinite)
     {
-      return true;
+      return linear;
     }
     indefinite_at_ = residual;
   }
@@ -251,10 +273,13 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
                                     std::vector<double>& seconds, Points* other)
 {
   NewtonReport report;
+  timer_.restart();
+  budget_s_ = options.budget_s;
   const std::size_t n = x.size();
   descent_.resize(n);
   trial_.resize(n);
   State state = evaluate(terms, x, gradient_, seconds);
+  evaluation_s_ = timer_.seconds();
   if (other != nullptr && *other != x)
   {
     const State there = evaluate(terms, *other, trial_gradient_, seconds);
@@ -268,11 +293,22 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
   const double size = largest(x);
   double accuracy = kFirstAccuracy;
   indefinite_at_ = 0.0;
-  matrix_serves_ = matrix_serves_ && terms == matrix_terms_;
+  if (terms != matrix_terms_)
+  {
+    forgetMatrix();
+  }
   bool settled = false;
   while (!settled && std::isfinite(state.value) && state.residual > options.tolerance &&
          report.iterations < options.max_iterations)
   {
+    const double begun_s = timer_.seconds();
+    const double spare_s = budget_s_ - begun_s - directing_s_;
+    const bool anew = !matrix_serves_ && (spare_s >= assembly_s_ || !matrix_leads_);
+    report.out_of_time = report.iterations > 0 && spare_s < (anew ? assembly_s_ : 0.0);
+    if (report.out_of_time)
+    {
+      break;
+    }
     ++report.iterations;
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -281,34 +317,41 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
     // More than the tolerance asked for is lost on this iteration.
     accuracy = std::max({accuracy, 1e-10, 0.3 * options.tolerance / state.residual});
     accuracy = std::min(accuracy, 0.1);
-    const bool anew = !matrix_serves_;
-    const bool definite = anew ? solveAnew(terms, x, state.residual, accuracy, report, seconds)
-                               : solve(accuracy, report);
+    const LinearReport linear = anew
+                                    ? solveAnew(terms, x, state.residual, accuracy, report, seconds)
+                                    : solve(accuracy, report);
     const double longest = largest(direction_);
-    settled = anew && definite && longest <= kUnresolved * size;
+    // What was cut short has not seen the slow motions.
+    const double reach = longest / state.force;
+    reach_ = linear.cut_short && reach_ > reach ? reach_ : reach;
+    settled = anew && !linear.indefinite && !linear.cut_short && longest <= kUnresolved * size;
     if (settled)
     {
       break;
     }
     State next = state;
-    const double step = definite || anew ? searchLine(terms, x, next, seconds) : 0.0;
+    const double step = anew || !linear.indefinite ? searchLine(terms, x, next, seconds) : 0.0;
     if (step == 0.0 && anew)
     {
       break;
     }
     const double left = step > 0.0 ? next.residual / state.residual : 1.0;
-    matrix_serves_ = step == 1.0 && left <= kServesAgain;
+    matrix_serves_ = step == 1.0 && left - linear.residual <= kServesAgain;
+    matrix_leads_ = step == 1.0 && left - linear.residual <= kLeads;
     matrix_terms_ = terms;
     if (step > 0.0)
     {
       x.swap(trial_);
       gradient_.swap(trial_gradient_);
       state = next;
-      settled = step == 1.0 && left * longest <= options.settled;
+      settled = step == 1.0 && left * longest <= options.settled && !linear.cut_short;
       accuracy = left * left;
     }
+    directing_s_ = timer_.seconds() - begun_s - (anew ? assembly_s_ : 0.0);
   }
+  report.value = state.value;
   report.residual = state.residual;
+  report.position_error_m = reach_ * state.force;
   report.finite = std::isfinite(state.residual) && std::isfinite(state.value);
   report.converged = settled || state.residual <= options.tolerance;
   return report;

@@ -1,4 +1,5 @@
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "soft_tissue_sim/base/parallel.h"
@@ -10,7 +11,9 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 256;
+constexpr Index kGrain = 256;  // rows of a matrix per parallel piece
+/** Nodes of a vector per piece: for fewer, other threads cost more than they do. */
+constexpr Index kVectorGrain = 8192;
 /** Answers no more exact than this are found in single precision. */
 constexpr double kSingleTolerance = 1e-3;
 
@@ -20,7 +23,7 @@ template <typename Real>
 class Conjugator
 {
  public:
-  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, Points& d)
+  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, int most, Points& d)
   {
     const Index n = a.rows();
     if (!loaded_)
@@ -36,10 +39,10 @@ class Conjugator
     scale = std::sqrt(scale);
     if (!(scale > 0.0) || !std::isfinite(scale))
     {
-      return {0, scale != 0.0};
+      return {0, 0.0, scale != 0.0, false};
     }
     takeRightSide(b, 1.0 / scale);
-    const LinearReport report = iterate(a, n, tolerance);
+    const LinearReport report = iterate(a, n, tolerance, most);
     for (Index i = 0; i < n; ++i)
     {
       const Vec3 moved(solution_[3 * i], solution_[3 * i + 1], solution_[3 * i + 2]);
@@ -112,7 +115,7 @@ class Conjugator
     }
   }
 
-  LinearReport iterate(const BlockMatrix& a, Index n, double tolerance)
+  LinearReport iterate(const BlockMatrix& a, Index n, double tolerance, int most)
   {
     const PcgKernels<Real>& kernels = pcgKernels<Real>(instructionSet());
     const BlockRows<Real> rows = {a.offsets().data(), a.columns().data(), values_.data()};
@@ -121,20 +124,20 @@ class Conjugator
     Real* p = direction_.data();
     Real* q = image_.data();
     const Real* inverse = inverse_.data();
-    PcgSums now = parallelSum(n, kGrain, [&](Index begin, Index end) {
+    PcgSums now = parallelSum(n, kVectorGrain, [&](Index begin, Index end) {
       return kernels.precondition(begin, end, inverse, r, p);
     });
     now.rz += solveCoarse(kernels);
     const Real* move = coarse_move_.data();
     if (groups_.size > 0)
     {
-      parallelFor(n, kGrain,
+      parallelFor(n, kVectorGrain,
                   [&](Index begin, Index end) { kernels.spread(groups_, begin, end, move, p); });
     }
-    const double enough = tolerance * tolerance * now.rr;
-    const int most = 10 * static_cast<int>(n) + 100;
+    const double all = now.rr, enough = tolerance * tolerance * all;
+    const int hopeless = 10 * static_cast<int>(n) + 100;
     int iteration = 0;
-    while (now.rr > enough && iteration < most)
+    while (now.rr > enough && iteration < std::min(most, hopeless))
     {
       ++iteration;
       const double curvature = parallelSum(n, kGrain, [&](Index begin, Index end) {
@@ -142,21 +145,21 @@ class Conjugator
       });
       if (!(curvature > 0.0))
       {
-        return {iteration, true};
+        return {iteration, 1.0, true, false};
       }
       const Real step = static_cast<Real>(now.rz / curvature);
-      PcgSums next = parallelSum(n, kGrain, [&](Index begin, Index end) {
+      PcgSums next = parallelSum(n, kVectorGrain, [&](Index begin, Index end) {
         return kernels.advance(begin, end, inverse, step, p, d, r, q);
       });
       if (!std::isfinite(next.rr))  // singular, and no solution
       {
         solution_.assign(solution_.size(), Real(0));
-        return {iteration, true};
+        return {iteration, 1.0, true, false};
       }
       next.rz += solveCoarse(kernels);
       const Real ratio = static_cast<Real>(next.rz / now.rz);
       now = next;
-      parallelFor(n, kGrain, [&](Index begin, Index end) {
+      parallelFor(n, kVectorGrain, [&](Index begin, Index end) {
         if (groups_.size > 0)
         {
           kernels.spread(groups_, begin, end, move, q);
@@ -164,7 +167,8 @@ class Conjugator
         kernels.turn(begin, end, ratio, q, p);
       });
     }
-    return {iteration, !std::isfinite(now.rr)};
+    return {iteration, std::sqrt(now.rr / all), !std::isfinite(now.rr),
+            now.rr > enough && iteration == most};
   }
 
   /** Groups' moves for the residual; its product with them. */
@@ -209,10 +213,11 @@ class Pcg : public LinearSolver
     }
   }
 
-  LinearReport solve(const Points& b, double tolerance, Points& d) override
+  LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) override
   {
-    return tolerance >= kSingleTolerance ? single_.solve(*matrix_, b, tolerance, d)
-                                         : double_.solve(*matrix_, b, tolerance, d);
+    return tolerance >= kSingleTolerance
+               ? single_.solve(*matrix_, b, tolerance, most_iterations, d)
+               : double_.solve(*matrix_, b, tolerance, most_iterations, d);
   }
 
  private:

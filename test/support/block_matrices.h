@@ -33,7 +33,7 @@ inline LinearReport solveWith(LinearSolver& solver, const BlockMatrix& a, const 
                               const Points& x, double tolerance, Points& d)
 {
   solver.setMatrix(a, x);
-  return solver.solve(b, tolerance, d);
+  return solver.solve(b, tolerance, std::numeric_limits<int>::max(), d);
 }
 
 /** Adds B B^T with a random 12 x 12 B for each tet: symmetric positive semi-definite. */

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "soft_tissue_sim/node/pose_series.h"
+#include "soft_tissue_sim/base/pose_series.h"
 #include "soft_tissue_sim/scene/config.h"
 
 namespace soft_tissue_sim
@@ -13,9 +13,10 @@ namespace soft_tissue_sim
 /** Tool poses read from a bag, on a clock that starts with the earliest of them. */
 struct BagPoses
 {
-  ros::Time start;                ///< stamp of the earliest pose
-  double length_s = 0.0;          ///< from the earliest to the latest pose
-  std::vector<PoseSeries> tools;  ///< one per tool of the scene, empty where the bag has none
+  ros::Time start;        ///< stamp of the earliest pose
+  double length_s = 0.0;  ///< from the earliest to the latest pose
+  std::vector<soft_tissue::PoseSeries>
+      tools;  ///< one per tool of the scene, empty where the bag has none
   std::vector<std::string> warnings;
 };
 

@@ -3,10 +3,12 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "soft_tissue_sim/base/types.h"
 #include "soft_tissue_sim/node/command_check.h"
-#include "soft_tissue_sim/node/command_slot.h"
 
 namespace soft_tissue_sim
 {
@@ -15,11 +17,15 @@ namespace soft_tissue_sim
 class CommandGate
 {
  public:
+  /** Takes commands that are in order; second: when the sender says, s; empty: now. */
+  using Sink = std::function<void(const soft_tissue::Pose& X_WT, std::optional<double> sent_s)>;
+
   /** @param tool  name for messages; @param watchdog_s  silence after which the pose counts as held
    */
-  CommandGate(std::string tool, CommandSlot& slot, double watchdog_s);
+  CommandGate(std::string tool, Sink sink, double watchdog_s);
 
-  void accept(const soft_tissue::Pose& X_WT);
+  /** @param stamp  zero: now */
+  void accept(const soft_tissue::Pose& X_WT, const ros::Time& stamp);
   /** Counts the rejection and warns of it, at most once a second. */
   void reject(Rejection rejection, const std::string& detail);
 
@@ -35,7 +41,7 @@ class CommandGate
 
  private:
   std::string tool_;
-  CommandSlot& slot_;
+  Sink sink_;
   double watchdog_s_;
   double last_warning_s_ = -1.0;  ///< steady clock
   std::array<std::atomic<std::uint64_t>, kRejectionCount> rejected_{};

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "soft_tissue_sim/node/command_slot.h"
+#include "soft_tissue_sim/node/command_stream.h"
 #include "soft_tissue_sim/node/latest_exchange.h"
 #include "soft_tissue_sim/node/real_time_meter.h"
 #include "soft_tissue_sim/node/step_schedule.h"
@@ -69,8 +69,8 @@ class PhysicsLoop
   /** Ends the thread after the step it is in. */
   void stop();
 
-  /** Where commands for a tool are left. */
-  CommandSlot& commandSlot(std::size_t tool) { return slots_[tool]; }
+  /** Tells where a tool shall be; `sent_s` is as in CommandStream::put(). From any thread. */
+  void command(std::size_t tool, const soft_tissue::Pose& X_WT, std::optional<double> sent_s);
 
   void setPaused(bool paused);
   /** Steps a paused loop; waits for the last one. @return simulated time, empty if it is not paused
@@ -89,7 +89,8 @@ class PhysicsLoop
   void execute(std::function<void()> task);
   bool stepIfDue();
   bool clockHasStarted();
-  void advance();
+  void aimTools(bool at_once);
+  void advance(bool at_once);
   void publishFrame();
   double clockNow() const;
   double secondsToNextStep() const;
@@ -98,8 +99,8 @@ class PhysicsLoop
   soft_tissue::Scene scene_;
   Config config_;
   std::function<void(const std::string&)> on_failure_;
-  std::deque<CommandSlot> slots_;  ///< one per tool
-  std::vector<std::optional<soft_tissue::Pose>> targets_W_;
+  std::deque<CommandStream> commands_;  ///< one per tool
+  CommandClock command_clock_;
   StepSchedule schedule_;
   bool clock_started_ = false;
   RealTimeMeter meter_;

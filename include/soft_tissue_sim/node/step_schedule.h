@@ -23,6 +23,9 @@ class StepSchedule
 
   void stepDone() { ++done_; }
 
+  /** Clock seconds a step takes. */
+  double period() const { return period_; }
+
   /** When on the clock the next step ends. */
   double nextDue() const { return anchor_ + static_cast<double>(done_ + 1) * period_; }
 

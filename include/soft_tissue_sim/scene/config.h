@@ -184,6 +184,9 @@ struct SolverConfig
   double tolerance = 1.0e-3;  ///< residual over the sum of the norms of the acting forces
   int max_iterations = 20;    ///< Newton iterations a step may take
   LinearSolverKind linear = LinearSolverKind::automatic;
+  /** Wall time a step may take; empty: as long as it needs. With one, steps depend on the machine
+   * and its load. */
+  std::optional<double> budget_ms;
 };
 
 struct OutputsConfig

@@ -16,7 +16,9 @@ enum class LinearSolverKind
 struct LinearReport
 {
   int iterations = 0;
+  double residual = 0.0;    ///< |b - A d| / |b|
   bool indefinite = false;  ///< A was found not to be positive definite
+  bool cut_short = false;   ///< the most iterations allowed were not enough
 };
 
 /** Solves A d = b for symmetric positive definite A of 3 x 3 blocks, of one pattern. */
@@ -33,10 +35,11 @@ class LinearSolver
   virtual void setMatrix(const BlockMatrix& a, const Points& x) = 0;
 
   /**
-   * @param tolerance  stop when |b - A d| <= tolerance |b|; direct solvers ignore it
-   * @param d          out, N x 3; of an indefinite A what was found until then, perhaps zero
+   * @param tolerance        stop when |b - A d| <= tolerance |b|; direct solvers ignore it
+   * @param most_iterations  stop after so many, > 0; what is found until then leads down, too
+   * @param d                out, N x 3; of an indefinite A what was found until then, perhaps zero
    */
-  virtual LinearReport solve(const Points& b, double tolerance, Points& d) = 0;
+  virtual LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();

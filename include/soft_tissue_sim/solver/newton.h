@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
+#include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/energy/term.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
 
@@ -22,6 +25,11 @@ struct NewtonOptions
    */
   double settled = 0.0;
   int max_iterations = 20;
+  /**
+   * Wall time, s, after which no iteration ends if the ones before tell how long one takes. The
+   * first is done in any case, with as many linear iterations as fit in.
+   */
+  double budget_s = std::numeric_limits<double>::infinity();
 };
 
 struct NewtonReport
@@ -30,7 +38,12 @@ struct NewtonReport
   int linear_iterations = 0;
   double residual = 0.0;  ///< relative, as in NewtonOptions::tolerance
   bool converged = false;
-  bool finite = true;     ///< false: forces or energy were no numbers at the start
+  bool out_of_time = false;  ///< stopped for NewtonOptions::budget_s
+  bool finite = true;        ///< false: forces or energy were no numbers at the start
+  double value = 0.0;        ///< the potential at the end, J
+  /** Estimate of how far nodes still are from the minimiser, m, by how far the last solve said they
+   * go for a force; NaN before the first one. */
+  double position_error_m = std::nan("");
   double linear_s = 0.0;  ///< wall time in linear solves
 };
 
@@ -63,7 +76,7 @@ class NewtonSolver
                         Points& x, std::vector<double>& seconds, Points* other = nullptr);
 
   /** Makes the next minimisation begin with second derivatives of its own. */
-  void forgetMatrix() { matrix_serves_ = false; }
+  void forgetMatrix() { matrix_serves_ = matrix_leads_ = false; }
 
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
@@ -74,6 +87,7 @@ class NewtonSolver
   {
     double value = 0.0;
     double magnitude = 0.0;  ///< sum of the terms' absolute values: the scale of rounding errors
+    double force = 0.0;      ///< norm of the sum of the terms' forces on free nodes, N
     double residual = 0.0;   ///< as in NewtonOptions::tolerance
   };
   State evaluate(const std::vector<EnergyTerm*>& terms, const Points& x, Points& gradient,
@@ -81,9 +95,10 @@ class NewtonSolver
   double addUp(const Points& part, Points& sum) const;
   void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
                 NewtonReport& report, std::vector<double>& seconds);
-  bool solve(double accuracy, NewtonReport& report);
-  bool solveAnew(const std::vector<EnergyTerm*>& terms, const Points& x, double residual,
-                 double accuracy, NewtonReport& report, std::vector<double>& seconds);
+  LinearReport solve(double accuracy, NewtonReport& report);
+  int affordableLinearIterations() const;
+  LinearReport solveAnew(const std::vector<EnergyTerm*>& terms, const Points& x, double residual,
+                         double accuracy, NewtonReport& report, std::vector<double>& seconds);
   State tryStep(const std::vector<EnergyTerm*>& terms, const Points& x, double step,
                 std::vector<double>& seconds);
   double searchLine(const std::vector<EnergyTerm*>& terms, const Points& x, State& state,
@@ -94,8 +109,17 @@ class NewtonSolver
   BlockMatrix hessian_;
   std::unique_ptr<LinearSolver> linear_;
   bool matrix_serves_ = false;  ///< hessian_ is still good enough for a direction
+  bool matrix_leads_ = false;   ///< not quite, but it brought the last iteration forward
   std::vector<EnergyTerm*> matrix_terms_;
   double indefinite_at_ = 0.0;  ///< the residual where exact curvature last failed
+  /** Farthest move of a node over the norm of the forces, of the last solve, m/N. */
+  double reach_ = std::nan("");
+
+  // What things took when last done, s, and the time they have to fit in.
+  Timer timer_;
+  double budget_s_ = 0.0;
+  double evaluation_s_ = 0.0, assembly_s_ = 0.0, linear_iteration_s_ = 0.0;
+  double directing_s_ = 0.0;  ///< direction and step, without second derivatives
   Points gradient_, term_gradient_, trial_gradient_, descent_, direction_, trial_;
 };
 

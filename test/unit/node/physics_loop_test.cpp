@@ -156,11 +156,11 @@ TEST_F(Loop, obeysTheNewestCommandUntilAReset)
   const soft_tissue::Pose first = newest().snapshot.tools[0].X_WT;
   for (const double z : {0.07, 0.05})
   {
-    loop_->commandSlot(0).put(soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, z)));
+    loop_->command(0, soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, z)), std::nullopt);
   }
   ASSERT_TRUE(loop_->step(1));
   EXPECT_NEAR(newest().snapshot.tools[0].X_WT.translation().z(), 0.05, 1e-12);
-  loop_->commandSlot(0).put(soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, 0.08)));
+  loop_->command(0, soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, 0.08)), std::nullopt);
   loop_->resetWorld();
   EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
   EXPECT_EQ(newest().resets, 1u);

@@ -25,24 +25,27 @@ class Followed : public testing::Test
 
   std::uint64_t missing() const { return gate_.rejected(Rejection::unknown_frame); }
 
-  CommandSlot slot_;
-  CommandGate gate_{"probe", slot_, 0.5};
+  std::vector<double> heights_, stamps_;  ///< of accepted commands
+  CommandGate gate_{"probe",
+                    [this](const soft_tissue::Pose& X_WT, std::optional<double> sent_s) {
+                      heights_.push_back(X_WT.translation().z());
+                      stamps_.push_back(sent_s.value_or(-1.0));
+                    },
+                    0.5};
   tf2_ros::Buffer buffer_;
 };
 
 TEST_F(Followed, newPosesAreCommandsAndOldOnesAreNot)
 {
   TfInput input("leader", gate_, buffer_, "world", 0.0);
-  soft_tissue::Pose X_WT;
   buffer_.setTransform(leaderAt(0.07, 1.0), "test");
   input.poll();
-  ASSERT_TRUE(slot_.take(X_WT));
-  EXPECT_EQ(X_WT.translation(), soft_tissue::Vec3(0.0, 0.0, 0.07));
   input.poll();
-  EXPECT_FALSE(slot_.take(X_WT));
+  EXPECT_EQ(heights_, std::vector<double>({0.07}));
   buffer_.setTransform(leaderAt(0.08, 1.1), "test");
   input.poll();
-  EXPECT_TRUE(slot_.take(X_WT));
+  EXPECT_EQ(heights_, std::vector<double>({0.07, 0.08}));
+  EXPECT_EQ(stamps_, std::vector<double>({1.0, 1.1}));
   EXPECT_EQ(gate_.accepted(), 2u);
   EXPECT_EQ(gate_.rejectedInAll(), 0u);
 }
@@ -81,15 +84,15 @@ TEST(CommandGate, silenceIsWatchedAlsoOverAJumpOfTheClock)
 {
   ros::Time::init();
   ros::Time::setNow(ros::Time(1000.0));
-  CommandSlot slot;
-  CommandGate gate("probe", slot, 0.5);
+  CommandGate gate(
+      "probe", [](const soft_tissue::Pose&, std::optional<double>) {}, 0.5);
   EXPECT_FALSE(gate.stale());
-  gate.accept(soft_tissue::Pose::Identity());
+  gate.accept(soft_tissue::Pose::Identity(), ros::Time());
   ros::Time::setNow(ros::Time(1000.4));
   EXPECT_FALSE(gate.stale());
   ros::Time::setNow(ros::Time(1000.6));
   EXPECT_TRUE(gate.stale());
-  gate.accept(soft_tissue::Pose::Identity());
+  gate.accept(soft_tissue::Pose::Identity(), ros::Time());
   EXPECT_FALSE(gate.stale());
   ros::Time::setNow(ros::Time(500.0));
   EXPECT_TRUE(gate.stale());

@@ -40,6 +40,9 @@ std::vector<BadScene> badNumbers()
       {"[0, 0, -9.81]", "[0, .inf, 0]", "gravity_m_per_s2[1] = .inf, must be a finite number"},
       {"tolerance: 1.0e-3", "tolerance: 0.2", "solver.tolerance = 0.2, must be in (0, 0.1]"},
       {"tolerance: 1.0e-3", "tolerance: 0", "solver.tolerance = 0, must be in (0, 0.1]"},
+      {"max_iterations: 20", "budget_ms: 0", "solver.budget_ms = 0, must be in (0, 1e+06]"},
+      {"max_iterations: 20", "budget_ms: fast",
+       "solver.budget_ms = fast, must be a number in (0, 1e+06]"},
       {"max_iterations: 20", "max_iterations: 0",
        "solver.max_iterations = 0, must be in [1, 1000]"},
       {"max_iterations: 20", "max_iterations: 1001",
@@ -135,7 +138,8 @@ std::vector<BadScene> badKeys()
        "x: unknown key. Known: time_step_s, gravity_m_per_s2, materials, solver, tissues, tools, "
        "contacts, outputs"},
       {"solver: {tolerance: 1.0e-3, max_iterations: 20, linear: auto}", "solver: fast",
-       "solver = fast, must be a map of keys: stepper, tolerance, max_iterations, linear"},
+       "solver = fast, must be a map of keys: stepper, tolerance, max_iterations, linear, "
+       "budget_ms"},
       {"outputs: {stress: false}", "outputs: [stress]",
        "outputs = [stress], must be a map of keys: stress"},
       {"{tag: 2, young_modulus_pa: 3.0e4}", "{tag: 2}",

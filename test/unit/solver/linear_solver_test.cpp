@@ -236,6 +236,27 @@ TEST_P(EveryLinearSolver, HasTheSameBitsForAnyThreadsAndInstructionSet)
   }
 }
 
+TEST(Pcg, LeadsDownWhereItIsCutShort)
+{
+  const BlockMatrix a = randomPositiveMatrix(150, 500, 21);
+  const Points b = randomPoints(150, 22);
+  const std::unique_ptr<LinearSolver> pcg = makePcg();
+  pcg->setMatrix(a, placesOf(a));
+  Points d;
+  const int all = pcg->solve(b, 1e-8, 1000, d).iterations;
+  double last = 0.0;
+  for (int most = 1; most <= all; ++most)
+  {
+    const LinearReport report = pcg->solve(b, 1e-8, most, d);
+    EXPECT_EQ(report.iterations, most);
+    EXPECT_EQ(report.cut_short, most < all);
+    EXPECT_FALSE(report.indefinite);
+    const double energy = 0.5 * flat(d).dot(dense(a) * flat(d)) - flat(b).dot(flat(d));
+    EXPECT_LT(energy, last);  // conjugate gradients go down from one iteration to the next
+    last = energy;
+  }
+}
+
 TEST(Pcg, NeedsNoMoreIterationsThanUnknowns)
 {
   const BlockMatrix a = randomPositiveMatrix(15, 40, 91);

@@ -35,6 +35,69 @@ TEST(NewtonSolver, EndsWhereNodesAreSettled)
   EXPECT_LT(last, all);
 }
 
+double farthest(const Points& a, const Points& b)
+{
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    most = std::max(most, (a[i] - b[i]).norm());
+  }
+  return most;
+}
+
+TEST(NewtonSolver, EndsWhenItsTimeIsUp)
+{
+  PulledBlock block({0.3 * kPull, 0.0, kPull});
+  Points end = block.mesh.nodes;
+  NewtonSolver patient = block.newton(makePcg());
+  EXPECT_FALSE(minimise(patient, block.terms, optionsOf(1e-12, 50), end).out_of_time);
+
+  NewtonSolver newton = block.newton(makePcg());
+  NewtonOptions options = optionsOf(1e-6, 50);
+  options.budget_s = 0.0;
+  std::vector<double> seconds(block.terms.size(), 0.0);
+  Points x = block.mesh.nodes;
+  double potential = block.elasticity.value(x) + block.loads.value(x);
+  for (int call = 0;; ++call)
+  {
+    ASSERT_LT(call, 300);
+    const NewtonReport report = newton.minimise(block.terms, options, x, seconds);
+    EXPECT_EQ(report.iterations, 1) << "the first iteration is done in any case";
+    EXPECT_EQ(report.value, block.elasticity.value(x) + block.loads.value(x));
+    EXPECT_LE(report.value, potential + 1e-12) << "what is done leads down";
+    potential = report.value;
+    if (report.converged)
+    {
+      break;
+    }
+    EXPECT_TRUE(report.out_of_time);
+    if (call > 0)
+    {
+      EXPECT_LE(report.linear_iterations, 8) << "of linear iterations, only the fewest";
+    }
+  }
+  EXPECT_LT(farthest(x, end), 1e-5 * farthest(block.mesh.nodes, end));
+}
+
+TEST(NewtonSolver, TellsHowFarTheEndIs)
+{
+  PulledBlock block({0.3 * kPull, 0.0, kPull});
+  Points end = block.mesh.nodes;
+  NewtonSolver newton = block.newton(makeCholesky());
+  minimise(newton, block.terms, optionsOf(1e-13, 50), end);
+  for (const int iterations : {1, 2, 3})
+  {
+    Points x = block.mesh.nodes;
+    const NewtonReport report = minimise(newton, block.terms, optionsOf(1e-13, iterations), x);
+    const double truth = farthest(x, end);
+    EXPECT_GT(report.position_error_m, 0.1 * truth) << iterations;
+    EXPECT_LT(report.position_error_m, 10.0 * truth) << iterations;
+  }
+  NewtonSolver fresh = block.newton(makeCholesky());
+  Points x = block.mesh.nodes;
+  EXPECT_TRUE(std::isnan(minimise(fresh, block.terms, optionsOf(1e-13, 0), x).position_error_m));
+}
+
 /** Another term, that counts how often its second derivative is asked for. */
 class CountedTerm : public EnergyTerm
 {

@@ -1,10 +1,10 @@
-#include "soft_tissue_sim/node/pose_series.h"
+#include "soft_tissue_sim/base/pose_series.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace soft_tissue_sim
+namespace soft_tissue
 {
 namespace
 {
@@ -38,4 +38,4 @@ TEST(PoseSeries, theLastOfSamplesAtOneTimeCounts)
 }
 
 }  // namespace
-}  // namespace soft_tissue_sim
+}  // namespace soft_tissue
