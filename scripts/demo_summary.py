@@ -67,6 +67,10 @@ def print_live(title, path, time_step_s):
     print_row("real-time factor, at most 1", "%.2f median, %.2f least" % (statistics.median(factors), min(factors)))
     print_row("step in contact", "%.2f ms mean, %.2f ms median, %.2f ms longest, of %g ms" %
               (statistics.mean(contact_ms), statistics.median(contact_ms), max(contact_ms), step_ms))
+    contact = [message for message in stats if message.contacts > 0]
+    print_row("steps in contact ended early", "%.0f %%, to keep to budget_ms" %
+              (100.0 * statistics.mean(message.out_of_time for message in contact)))
+    print_row("residual in contact", "%.4f median" % statistics.median(message.residual for message in contact))
     print_row("real time over mean step", "%.2f" % (step_ms / statistics.mean(contact_ms)))
 
 
