@@ -1,10 +1,9 @@
 #include "soft_tissue_sim/energy/tet_chunks.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 
 #include "soft_tissue_sim/energy/tet_kernels.h"
+#include "soft_tissue_sim/geometry/morton_order.h"
 
 namespace soft_tissue
 {
@@ -15,49 +14,21 @@ constexpr Index kChunks = 48;
 constexpr Index kFewestGroups = 4;
 constexpr Index kMostGroups = 64;
 
-/** The bits of a 21-bit number, two places apart. */
-std::uint64_t spread(std::uint64_t v)
-{
-  v = (v | v << 32) & 0x1f00000000ffffULL;
-  v = (v | v << 16) & 0x1f0000ff0000ffULL;
-  v = (v | v << 8) & 0x100f00f00f00f00fULL;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
-  v = (v | v << 2) & 0x1249249249249249ULL;
-  return v;
-}
-
 /** Tets along a Morton curve through their centres. */
 std::vector<Index> nearbyOrder(const TetMesh& mesh)
 {
-  Vec3 low = Vec3::Constant(1e300), high = -low;
-  for (const Vec3& p : mesh.nodes)
-  {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double scale = 2097151.0 / std::max((high - low).maxCoeff(), 1e-300);
-  std::vector<std::pair<std::uint64_t, Index>> keys;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+  Points centres;
+  centres.reserve(mesh.tets.size());
+  for (const Tet& tet : mesh.tets)
   {
     Vec3 centre = Vec3::Zero();
-    for (const Index node : mesh.tets[t])
+    for (const Index node : tet)
     {
       centre += 0.25 * mesh.nodes[node];
     }
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      key |= spread(static_cast<std::uint64_t>(scale * (centre[axis] - low[axis]))) << axis;
-    }
-    keys.emplace_back(key, static_cast<Index>(t));
+    centres.push_back(centre);
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<Index> order;
-  for (const auto& key : keys)
-  {
-    order.push_back(key.second);
-  }
-  return order;
+  return mortonOrder(centres);
 }
 
 /** The smallest colour for each chunk of `size` tets that no chunk before it with a common node

@@ -1,6 +1,7 @@
 #include "soft_tissue_sim/field/distance_field.h"
 
-#include "closest_feature_marching.h"
+#include "exact_marching.h"
+#include "feature_marching.h"
 #include "soft_tissue_sim/base/error.h"
 
 namespace soft_tissue
@@ -8,11 +9,19 @@ namespace soft_tissue
 std::unique_ptr<DistanceField> makeDistanceField(const std::string& method,
                                                  const FieldTopology& topology)
 {
+  if (method == "cpfm")
+  {
+    return std::make_unique<FeatureMarching<NodeFeatures>>(topology);
+  }
   if (method == "cffm")
   {
-    return std::make_unique<ClosestFeatureMarching>(topology);
+    return std::make_unique<FeatureMarching<TriangleFeatures>>(topology);
   }
-  throw Error("field method = \"" + method + "\", must be one of: cffm");
+  if (method == "exact_marching")
+  {
+    return std::make_unique<ExactMarching>(topology);
+  }
+  throw Error("field method = \"" + method + "\", must be one of: cpfm, cffm, exact_marching");
 }
 
 }  // namespace soft_tissue

@@ -53,10 +53,13 @@ const Section<FieldConfig>& fieldSection()
 {
   static const Section<FieldConfig> section =
       Section<FieldConfig>("field", "The distance field inside a tissue, which contact reads.")
-          .optional(
-              "method", &FieldConfig::method,
-              choice<std::string>({{"cffm", "cffm"}}, {"grid", "cpfm", "exact", "exact_marching"}),
-              "How nodal depths are computed; cffm: marching closest features.")
+          .optional("method", &FieldConfig::method,
+                    choice<std::string>(
+                        {{"exact_marching", "exact_marching"}, {"cffm", "cffm"}, {"cpfm", "cpfm"}},
+                        {"grid"}),
+                    "How nodal depths are computed. exact_marching: exactly; cffm, cpfm: marching "
+                    "closest "
+                    "features or points, which may come out too large.")
           .optional("depth", &FieldConfig::depth,
                     choice<DepthKind>({{"interpolated", DepthKind::interpolated},
                                        {"closest_feature", DepthKind::closest_feature}}),

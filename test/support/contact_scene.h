@@ -76,6 +76,8 @@ class ExhaustiveField : public DistanceField
     marchUntil(x, all);
   }
 
+  std::uint64_t evaluations() const override { return 0; }
+
   void marchUntil(const Points& x, const std::vector<Index>& wanted) override
   {
     if (marches_ != nullptr)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "soft_tissue_sim/field/distance_field.h"
@@ -21,7 +22,10 @@ struct FieldBody
   FieldBody& operator=(const FieldBody&) = delete;
 
   FieldTopology topology() const { return {&mesh.tets, &surface, &neighbours}; }
-  std::unique_ptr<DistanceField> field() const { return makeDistanceField("cffm", topology()); }
+  std::unique_ptr<DistanceField> field(const std::string& method = "cffm") const
+  {
+    return makeDistanceField(method, topology());
+  }
 
   TetMesh mesh;
   BoundarySurface surface;

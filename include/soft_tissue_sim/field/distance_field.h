@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,12 +18,7 @@ struct FieldTopology
   const Adjacency* node_neighbours = nullptr;
 };
 
-/**
- * Depth inside a tet body on its nodes, by marching over the mesh itself.
- *
- * Source: [Marchal2004] closest-feature fast marching: nodes in order of distance, each handing its
- * closest boundary triangle on to its neighbours.
- */
+/** Depth inside a tet body on its nodes, by marching over the mesh itself. */
 class DistanceField
 {
  public:
@@ -38,13 +34,22 @@ class DistanceField
   /** Nodal depths, m: 0 on the boundary, > 0 inside, NaN where not marched or not connected. */
   virtual const std::vector<double>& depth() const = 0;
 
-  /** Per node the boundary triangle nearest to it (index into surface->triangles), -1 where not
-   * marched. */
+  /** Per node the boundary triangle found nearest to it (index into surface->triangles), -1 where
+   * not marched. */
   virtual const std::vector<Index>& closestTriangle() const = 0;
+
+  /** Distances from a point to a boundary feature worked out so far, all marches together. */
+  virtual std::uint64_t evaluations() const = 0;
 };
 
 /**
- * A field by name: "cffm". It keeps the pointers of the topology and takes all its memory here.
+ * A field by name. It keeps the pointers of the topology.
+ *
+ * - "cpfm": distance to the nearest boundary node, as neighbours tell of it: the closest-point fast
+ *   marching of [Marchal2004]. Above the true depth by up to the size of boundary triangles.
+ * - "cffm": the same with boundary triangles: closest-feature fast marching. At or above the true
+ *   depth.
+ * - "exact_marching": the true depth.
  * @throws Error naming the known methods, or if parts of the topology are missing or don't match
  */
 std::unique_ptr<DistanceField> makeDistanceField(const std::string& method,

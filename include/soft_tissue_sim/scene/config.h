@@ -69,7 +69,7 @@ enum class FieldRefresh
 
 struct FieldConfig
 {
-  std::string method = "cffm";
+  std::string method = "exact_marching";
   DepthKind depth = DepthKind::closest_feature;
   FieldRefresh refresh = FieldRefresh::lazy;
 };

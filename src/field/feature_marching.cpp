@@ -1,11 +1,10 @@
-#include "closest_feature_marching.h"
+#include "feature_marching.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
-#include "soft_tissue_sim/base/error.h"
+#include "field_checks.h"
 #include "soft_tissue_sim/geometry/closest_point.h"
 
 namespace soft_tissue
@@ -15,25 +14,17 @@ namespace
 constexpr double kNotMarched = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Index kAll = -1;
-
-const FieldTopology& checked(const FieldTopology& topology)
-{
-  if (!topology.tets || !topology.surface || !topology.node_neighbours)
-  {
-    throw Error("distance field: tets, surface and node_neighbours must all be given");
-  }
-  const std::size_t node_count = topology.node_neighbours->size();
-  if (topology.surface->node_slot.size() != node_count)
-  {
-    throw Error("distance field: the surface is of a mesh of " +
-                std::to_string(topology.surface->node_slot.size()) +
-                " nodes, node_neighbours of one of " + std::to_string(node_count));
-  }
-  return topology;
-}
 }  // namespace
 
-ClosestFeatureMarching::ClosestFeatureMarching(const FieldTopology& topology)
+double TriangleFeatures::squaredDistance(const BoundarySurface& surface, Index triangle,
+                                         const Points& x, const Vec3& p)
+{
+  const Triangle& t = surface.triangles[triangle];
+  return closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]).squared_distance;
+}
+
+template <typename Feature>
+FeatureMarching<Feature>::FeatureMarching(const FieldTopology& topology)
     : topology_(checked(topology)), heap_(topology.node_neighbours->size())
 {
   const std::size_t node_count = topology_.node_neighbours->size();
@@ -50,8 +41,9 @@ ClosestFeatureMarching::ClosestFeatureMarching(const FieldTopology& topology)
   collectSeeds();
 }
 
-/** What the boundary nodes will offer depends on connectivity alone: each triangle once a node. */
-void ClosestFeatureMarching::collectSeeds()
+/** What the boundary nodes will offer depends on connectivity alone: each feature once a node. */
+template <typename Feature>
+void FeatureMarching<Feature>::collectSeeds()
 {
   const BoundarySurface& surface = *topology_.surface;
   seeds_.offsets.push_back(0);
@@ -65,8 +57,11 @@ void ClosestFeatureMarching::collectSeeds()
     for (const Index* other = topology_.node_neighbours->begin(node);
          other != topology_.node_neighbours->end(node); ++other)
     {
-      seeds_.items.insert(seeds_.items.end(), surface.node_triangles.begin(*other),
-                          surface.node_triangles.end(*other));
+      if (surface.node_slot[*other] >= 0)
+      {
+        seeds_.items.insert(seeds_.items.end(), Feature::begin(surface, *other),
+                            Feature::end(surface, *other));
+      }
     }
     std::sort(seeds_.items.begin() + first, seeds_.items.end());
     seeds_.items.erase(std::unique(seeds_.items.begin() + first, seeds_.items.end()),
@@ -79,14 +74,16 @@ void ClosestFeatureMarching::collectSeeds()
   }
 }
 
-void ClosestFeatureMarching::march(const Points& x)
+template <typename Feature>
+void FeatureMarching<Feature>::march(const Points& x)
 {
   begin(x);
   seed(x);
   run(x, kAll);
 }
 
-void ClosestFeatureMarching::marchUntil(const Points& x, const std::vector<Index>& wanted)
+template <typename Feature>
+void FeatureMarching<Feature>::marchUntil(const Points& x, const std::vector<Index>& wanted)
 {
   begin(x);
   const Index missing = countMissing(wanted);
@@ -97,13 +94,10 @@ void ClosestFeatureMarching::marchUntil(const Points& x, const std::vector<Index
   }
 }
 
-void ClosestFeatureMarching::begin(const Points& x)
+template <typename Feature>
+void FeatureMarching<Feature>::begin(const Points& x)
 {
-  if (x.size() != depth_.size())
-  {
-    throw Error("distance field: " + std::to_string(x.size()) + " positions for " +
-                std::to_string(depth_.size()) + " nodes");
-  }
+  checkPositions(x, depth_.size());
   for (const Index node : touched_)
   {
     depth_[node] = kNotMarched;
@@ -115,16 +109,10 @@ void ClosestFeatureMarching::begin(const Points& x)
 }
 
 /** Marks the wanted nodes and returns how many different ones have no depth yet. */
-Index ClosestFeatureMarching::countMissing(const std::vector<Index>& wanted)
+template <typename Feature>
+Index FeatureMarching<Feature>::countMissing(const std::vector<Index>& wanted)
 {
-  for (const Index node : wanted)
-  {
-    if (node < 0 || node >= static_cast<Index>(depth_.size()))
-    {
-      throw Error("distance field: wanted node " + std::to_string(node) + ", must be in [0, " +
-                  std::to_string(depth_.size()) + ")");
-    }
-  }
+  checkWanted(wanted, depth_.size());
   ++march_number_;
   Index missing = 0;
   for (const Index node : wanted)
@@ -138,26 +126,29 @@ Index ClosestFeatureMarching::countMissing(const std::vector<Index>& wanted)
   return missing;
 }
 
-/** All boundary nodes have depth 0 and come first: each offers all triangles around it. */
-void ClosestFeatureMarching::seed(const Points& x)
+/** All boundary nodes have depth 0 and come first: each offers all features on it. */
+template <typename Feature>
+void FeatureMarching<Feature>::seed(const Points& x)
 {
   for (std::size_t i = 0; i < seed_nodes_.size(); ++i)
   {
     const Index row = static_cast<Index>(i);
-    for (const Index* triangle = seeds_.begin(row); triangle != seeds_.end(row); ++triangle)
+    for (const Index* feature = seeds_.begin(row); feature != seeds_.end(row); ++feature)
     {
-      offer(seed_nodes_[i], *triangle, x);
+      offer(seed_nodes_[i], *feature, x);
     }
   }
 }
 
-void ClosestFeatureMarching::run(const Points& x, Index missing)
+template <typename Feature>
+void FeatureMarching<Feature>::run(const Points& x, Index missing)
 {
   while (!heap_.empty())
   {
     const Index node = heap_.pop();
     depth_[node] = std::sqrt(offers_[node].squared_distance);
-    closest_[node] = offers_[node].triangle;
+    const Index feature = offers_[node].feature;
+    closest_[node] = Feature::triangle(*topology_.surface, feature);
     if (missing != kAll && wanted_in_march_[node] == march_number_ && --missing == 0)
     {
       return;
@@ -165,32 +156,36 @@ void ClosestFeatureMarching::run(const Points& x, Index missing)
     for (const Index* other = topology_.node_neighbours->begin(node);
          other != topology_.node_neighbours->end(node); ++other)
     {
-      if (std::isnan(depth_[*other]) && offers_[*other].triangle != closest_[node])
+      if (std::isnan(depth_[*other]) && offers_[*other].feature != feature)
       {
-        offer(*other, closest_[node], x);
+        offer(*other, feature, x);
       }
     }
   }
 }
 
-void ClosestFeatureMarching::offer(Index node, Index triangle, const Points& x)
+template <typename Feature>
+void FeatureMarching<Feature>::offer(Index node, Index feature, const Points& x)
 {
-  const Triangle& t = topology_.surface->triangles[triangle];
-  const double squared = closestOnTriangle(x[node], x[t[0]], x[t[1]], x[t[2]]).squared_distance;
+  ++evaluations_;
+  const double squared = Feature::squaredDistance(*topology_.surface, feature, x, x[node]);
   Offer& best = offers_[node];
   if (squared < best.squared_distance)
   {
-    if (best.triangle < 0)
+    if (best.feature < 0)
     {
       touched_.push_back(node);
     }
-    best = {squared, triangle};
+    best = {squared, feature};
     heap_.pushOrDecrease(node, squared);
   }
-  else if (squared == best.squared_distance && triangle < best.triangle)
+  else if (squared == best.squared_distance && feature < best.feature)
   {
-    best.triangle = triangle;
+    best.feature = feature;
   }
 }
+
+template class FeatureMarching<TriangleFeatures>;
+template class FeatureMarching<NodeFeatures>;
 
 }  // namespace soft_tissue
