@@ -1,6 +1,5 @@
 #include "exact_marching.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,8 +13,6 @@ namespace
 {
 constexpr double kNotMarched = std::numeric_limits<double>::quiet_NaN();
 constexpr Index kGrain = 1024;
-/** Hints a search starts with: more cost more than they save. */
-constexpr int kMostHints = 4;
 }  // namespace
 
 ExactMarching::ExactMarching(const FieldTopology& topology) : topology_(checked(topology))
@@ -102,29 +99,19 @@ void ExactMarching::makeOrder(const Points& x)
   }
 }
 
-/** Finds a node's triangle; hints are its last one, and those of neighbours on the boundary or from
- * chunk_begin to here. @return triangles looked at closely */
+/** Finds a node's triangle from a hint: its last one, or that of a neighbour on the boundary or
+ * from chunk_begin to here. @return triangles looked at closely */
 int ExactMarching::visit(Index node, Index chunk_begin, const Points& x)
 {
-  Index hints[kMostHints];
-  int count = 0;
-  if (hint_[node] >= 0)
-  {
-    hints[count++] = hint_[node];
-  }
+  Index hint = hint_[node];
   const Index rank = rank_[node];
   for (const Index* other = topology_.node_neighbours->begin(node);
-       count < kMostHints && hint_[node] < 0 && other != topology_.node_neighbours->end(node);
-       ++other)
+       hint < 0 && other != topology_.node_neighbours->end(node); ++other)
   {
     const bool known = rank_[*other] < 0 || (rank_[*other] >= chunk_begin && rank_[*other] < rank);
-    if (known && closest_[*other] >= 0 &&
-        std::find(hints, hints + count, closest_[*other]) == hints + count)
-    {
-      hints[count++] = closest_[*other];
-    }
+    hint = known ? closest_[*other] : -1;
   }
-  const TriangleTree::Nearest found = tree_.nearest(x[node], x, hints, count);
+  const TriangleTree::Nearest found = tree_.nearest(x[node], x, hint);
   if (found.triangle >= 0)
   {
     depth_[node] = std::sqrt(found.point.squared_distance);

@@ -6,8 +6,8 @@
 namespace soft_tissue
 {
 /**
- * Exact depths, at marching cost: nodes are taken along a space-filling curve, the triangles
- * nearest to their neighbours before them are the hints of a search that finds the nearest of all.
+ * Exact depths, at marching cost: nodes are taken along a space-filling curve, the triangle nearest
+ * to a neighbour before them is the hint of a search that finds the nearest of all.
  *
  * A march that wants some nodes only looks at those. The first march takes memory, and needs a
  * boundary that is finite.

@@ -8,9 +8,9 @@ namespace soft_tissue
 {
 const FieldTopology& checked(const FieldTopology& topology)
 {
-  if (!topology.tets || !topology.surface || !topology.node_neighbours)
+  if (!topology.surface || !topology.node_neighbours)
   {
-    throw Error("distance field: tets, surface and node_neighbours must all be given");
+    throw Error("distance field: surface and node_neighbours must both be given");
   }
   const std::size_t node_count = topology.node_neighbours->size();
   if (topology.surface->node_slot.size() != node_count)

@@ -226,8 +226,7 @@ Box3 TriangleTree::bounds() const
   return box;
 }
 
-TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, const Points& x, const Index* hints,
-                                            int hint_count) const
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, const Points& x, Index hint) const
 {
   struct Search
   {
@@ -259,12 +258,9 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, const Points& x, cons
   };
   Search search{p, x, *triangles_, {}};
   search.found.point.squared_distance = kInfinity;
-  for (int k = 0; k < hint_count; ++k)
+  if (hint >= 0)
   {
-    if (hints[k] >= 0)
-    {
-      search.visit(hints[k]);
-    }
+    search.visit(hint);
   }
   if (!nodes_.empty() && p.allFinite())
   {

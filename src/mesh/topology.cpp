@@ -39,6 +39,30 @@ Adjacency incidence(Index node_count, const std::vector<std::array<Index, K>>& e
   return rows;
 }
 
+/** Nodes that share one of the elements with each node. */
+template <std::size_t K>
+Adjacency neighbours(Index node_count, const std::vector<std::array<Index, K>>& elements)
+{
+  const Adjacency incident = incidence(node_count, elements);
+  Adjacency rows;
+  rows.offsets.reserve(static_cast<std::size_t>(node_count) + 1);
+  rows.offsets.push_back(0);
+  std::vector<Index> row;
+  for (Index node = 0; node < node_count; ++node)
+  {
+    row.clear();
+    for (const Index* element = incident.begin(node); element != incident.end(node); ++element)
+    {
+      row.insert(row.end(), elements[*element].begin(), elements[*element].end());
+    }
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    std::remove_copy(row.begin(), row.end(), std::back_inserter(rows.items), node);
+    rows.offsets.push_back(static_cast<Index>(rows.items.size()));
+  }
+  return rows;
+}
+
 void collectBoundaryTriangles(Index node_count, const std::vector<Tet>& tets, BoundarySurface& out)
 {
   const Adjacency faces = groupTetFaces(node_count, tets);
@@ -130,24 +154,12 @@ Adjacency nodeTets(Index node_count, const std::vector<Tet>& tets)
 
 Adjacency nodeNeighbours(Index node_count, const std::vector<Tet>& tets)
 {
-  const Adjacency incident = nodeTets(node_count, tets);
-  Adjacency rows;
-  rows.offsets.reserve(static_cast<std::size_t>(node_count) + 1);
-  rows.offsets.push_back(0);
-  std::vector<Index> row;
-  for (Index node = 0; node < node_count; ++node)
-  {
-    row.clear();
-    for (const Index* tet = incident.begin(node); tet != incident.end(node); ++tet)
-    {
-      row.insert(row.end(), tets[*tet].begin(), tets[*tet].end());
-    }
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    std::remove_copy(row.begin(), row.end(), std::back_inserter(rows.items), node);
-    rows.offsets.push_back(static_cast<Index>(rows.items.size()));
-  }
-  return rows;
+  return neighbours(node_count, tets);
+}
+
+Adjacency nodeNeighbours(Index node_count, const std::vector<Triangle>& triangles)
+{
+  return neighbours(node_count, triangles);
 }
 
 BoundarySurface extractBoundary(Index node_count, const std::vector<Tet>& tets)
@@ -157,6 +169,43 @@ BoundarySurface extractBoundary(Index node_count, const std::vector<Tet>& tets)
   out.node_triangles = incidence(node_count, out.triangles);
   collectBoundaryNodes(node_count, out);
   collectBoundaryEdges(node_count, out);
+  return out;
+}
+
+BoundarySurface extractPlanarBoundary(Index node_count, const std::vector<Triangle>& triangles)
+{
+  std::vector<std::pair<Edge, Index>> sides;  // smaller node first, and 3 triangle + corner
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, static_cast<Index>(3 * t + k)});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<Index> single;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    const bool with_last = i > 0 && sides[i].first == sides[i - 1].first;
+    const bool with_next = i + 1 < sides.size() && sides[i].first == sides[i + 1].first;
+    if (!with_last && !with_next)
+    {
+      single.push_back(sides[i].second);
+    }
+  }
+  std::sort(single.begin(), single.end());
+  BoundarySurface out;
+  std::vector<Edge> edges;
+  for (const Index side : single)
+  {
+    const Triangle& t = triangles[side / 3];
+    edges.push_back({t[side % 3], t[(side + 1) % 3]});
+    out.triangles.push_back({edges.back()[0], edges.back()[1], edges.back()[1]});
+    out.triangle_tet.push_back(side / 3);
+  }
+  out.node_triangles = incidence(node_count, edges);
+  collectBoundaryNodes(node_count, out);
   return out;
 }
 

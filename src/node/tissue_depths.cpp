@@ -19,7 +19,7 @@ TissueDepths::TissueDepths(const SceneInfo& info, const soft_tissue::SceneConfig
       view.node_neighbours = soft_tissue::nodeNeighbours(node_count, tissue.rest.tets);
       view.field = soft_tissue::makeDistanceField(
           config.tissues[i].field.method,
-          {&tissue.rest.tets, &tissue.surface, &view.node_neighbours});
+          {&tissue.surface, &view.node_neighbours});
     }
   }
 }

@@ -163,8 +163,7 @@ void Scene::Impl::addTool(std::size_t index)
 
 FieldTopology Scene::Impl::fieldTopology(std::size_t tissue) const
 {
-  return {&tissue_info_[tissue].rest.tets, &tissue_info_[tissue].surface,
-          &tissues_[tissue].neighbours};
+  return {&tissue_info_[tissue].surface, &tissues_[tissue].neighbours};
 }
 
 void Scene::Impl::addContact(std::size_t index)

@@ -21,7 +21,7 @@ struct FieldBody
   FieldBody(const FieldBody&) = delete;
   FieldBody& operator=(const FieldBody&) = delete;
 
-  FieldTopology topology() const { return {&mesh.tets, &surface, &neighbours}; }
+  FieldTopology topology() const { return {&surface, &neighbours}; }
   std::unique_ptr<DistanceField> field(const std::string& method = "cffm") const
   {
     return makeDistanceField(method, topology());

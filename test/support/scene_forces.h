@@ -105,7 +105,7 @@ class ContactTwin
     contact_ = std::make_unique<ToolContact>(
         TissueBody{&info_.rest.tets, &info_.surface, 0, count}, tool,
         makeDistanceField(scene.config().tissues[0].field.method,
-                          {&info_.rest.tets, &info_.surface, &node_neighbours_}),
+                          {&info_.surface, &node_neighbours_}),
         options);
   }
 

@@ -13,12 +13,12 @@ namespace soft_tissue
  * topology change. */
 struct FieldTopology
 {
-  const std::vector<Tet>* tets = nullptr;
   const BoundarySurface* surface = nullptr;
   const Adjacency* node_neighbours = nullptr;
 };
 
-/** Depth inside a tet body on its nodes, by marching over the mesh itself. */
+/** Depth inside a body on its nodes, by marching over the mesh itself: tets, or triangles in a
+ * plane (see extractPlanarBoundary). */
 class DistanceField
 {
  public:

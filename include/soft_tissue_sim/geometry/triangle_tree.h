@@ -43,11 +43,10 @@ class TriangleTree
 
   /**
    * The nearest triangle to p, of equally near ones that of least number.
-   * @param x      as in the last build() or refit()
-   * @param hints  triangles that may be near, any number of them
+   * @param x     as in the last build() or refit()
+   * @param hint  a triangle that may be near, or -1
    */
-  Nearest nearest(const Vec3& p, const Points& x, const Index* hints = nullptr,
-                  int hint_count = 0) const;
+  Nearest nearest(const Vec3& p, const Points& x, Index hint = -1) const;
 
  private:
   struct Range

@@ -20,6 +20,7 @@ struct Adjacency
 
 /** Nodes that share an edge with each node. */
 Adjacency nodeNeighbours(Index node_count, const std::vector<Tet>& tets);
+Adjacency nodeNeighbours(Index node_count, const std::vector<Triangle>& triangles);
 
 /** Tets that contain each node. */
 Adjacency nodeTets(Index node_count, const std::vector<Tet>& tets);
@@ -41,5 +42,13 @@ struct BoundarySurface
 };
 
 BoundarySurface extractBoundary(Index node_count, const std::vector<Tet>& tets);
+
+/**
+ * The boundary of a mesh of triangles in a plane: edges that belong to exactly one of them, each as
+ * a triangle whose last two corners are one. What measures distances to triangles then does the
+ * same in two dimensions. Of BoundarySurface only triangles, triangle_tet (the number of the
+ * triangle), nodes, node_slot and node_triangles are set.
+ */
+BoundarySurface extractPlanarBoundary(Index node_count, const std::vector<Triangle>& triangles);
 
 }  // namespace soft_tissue

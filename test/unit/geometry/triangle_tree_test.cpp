@@ -69,10 +69,9 @@ void expectNearest(const TriangleTree& tree, const Soup& soup, RandomGeometry& r
   {
     const Vec3 p = i % 5 == 0 ? soup.x[i % soup.x.size()] : random.point(i % 3 == 0 ? 10.0 : 1.2);
     const TriangleTree::Nearest exact = bruteForce(soup, p);
-    const Index hints[3] = {static_cast<Index>(i % soup.triangles.size()), -1, exact.triangle};
-    for (int hint_count = 0; hint_count <= 3; ++hint_count)
+    for (const Index hint : {-1, i % static_cast<Index>(soup.triangles.size()), exact.triangle})
     {
-      const TriangleTree::Nearest found = tree.nearest(p, soup.x, hints, hint_count);
+      const TriangleTree::Nearest found = tree.nearest(p, soup.x, hint);
       EXPECT_EQ(found.triangle, exact.triangle);
       EXPECT_EQ(found.point.squared_distance, exact.point.squared_distance);
       EXPECT_EQ(found.point.point, exact.point.point);
@@ -150,7 +149,7 @@ TEST(TriangleTree, LooksCloselyAtFewTrianglesOfASmoothSurface)
     const Vec3 p = random.point(0.3);
     const TriangleTree::Nearest found = tree.nearest(p, ball.x);
     EXPECT_EQ(found.triangle, bruteForce(ball, p).triangle);
-    evaluations += tree.nearest(p, ball.x, &found.triangle, 1).evaluations;
+    evaluations += tree.nearest(p, ball.x, found.triangle).evaluations;
   }
   EXPECT_LT(evaluations, 300 * 0.01 * ball.triangles.size());
 }

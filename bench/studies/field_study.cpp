@@ -1,0 +1,276 @@
+#include "field_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+#include "closest_point_tree.h"
+#include "field_bodies.h"
+#include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/base/timer.h"
+#include "soft_tissue_sim/field/grid_field.h"
+#include "soft_tissue_sim/geometry/triangle_tree.h"
+#include "soft_tissue_sim/mesh/generate.h"
+
+namespace soft_tissue::studies
+{
+namespace
+{
+/** More boundary triangles times nodes than that are too many for brute force. */
+constexpr double kMostPairs = 3e8;
+
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** Median wall time of several calls, ms. */
+double timed(int repeats, const std::function<void()>& call)
+{
+  std::vector<double> ms;
+  for (int k = 0; k < repeats; ++k)
+  {
+    const Timer timer;
+    call();
+    ms.push_back(1e3 * timer.seconds());
+  }
+  return median(ms);
+}
+
+/** The true depths: of all triangles one after the other, or where those are too many, by a tree
+ * without any hint, which tests hold against brute force. */
+std::vector<double> trueDepths(const FieldBody& body)
+{
+  const std::vector<Triangle>& triangles = body.surface.triangles;
+  const bool brute = static_cast<double>(body.x.size()) * triangles.size() <= kMostPairs;
+  TriangleTree tree;
+  tree.build(triangles, body.x);
+  std::vector<double> depths;
+  for (const Vec3& p : body.x)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; brute && i < triangles.size(); ++i)
+    {
+      const Triangle& t = triangles[i];
+      least = std::min(
+          least, closestOnTriangle(p, body.x[t[0]], body.x[t[1]], body.x[t[2]]).squared_distance);
+    }
+    depths.push_back(std::sqrt(brute ? least : tree.nearest(p, body.x).point.squared_distance));
+  }
+  return depths;
+}
+
+/** field.csv, a line a measurement, each shown as well. */
+class Table
+{
+ public:
+  explicit Table(const std::string& folder) : path_(folder + "/field.csv"), stream_(path_)
+  {
+    stream_ << "case,dim,elements,nodes,method,order,resolution,ms,max_err,median_err,"
+               "wrong_fraction,evaluations\n";
+    check();
+  }
+
+  /** What was measured, and how. */
+  struct Method
+  {
+    std::string name;
+    int order = 0;       ///< of a grid's scheme
+    int resolution = 0;  ///< points of a grid along its longest axis
+  };
+
+  /** @param depths  of all nodes; errors are taken over those inside */
+  void add(const FieldBody& body, const Method& method, double ms,
+           const std::vector<double>& depths, const std::vector<double>& truth,
+           std::uint64_t evaluations)
+  {
+    std::vector<double> errors;
+    double wrong = 0.0, deepest = 0.0;
+    for (std::size_t node = 0; node < depths.size(); ++node)
+    {
+      deepest = std::max(deepest, truth[node]);
+    }
+    for (std::size_t node = 0; node < depths.size(); ++node)
+    {
+      if (body.surface.node_slot[node] < 0 && std::isfinite(depths[node]))
+      {
+        errors.push_back(std::abs(depths[node] - truth[node]));
+        wrong += errors.back() > 1e-12 * deepest ? 1.0 : 0.0;
+      }
+    }
+    const double largest = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
+    const double middle = errors.empty() ? 0.0 : median(errors);
+    const double share = errors.empty() ? 0.0 : wrong / static_cast<double>(errors.size());
+    const auto shown = [](int number) { return number > 0 ? std::to_string(number) : ""; };
+    char line[400];
+    std::snprintf(line, sizeof(line), "%s,%d,%zu,%zu,%s,%s,%s,%.4g,%.4g,%.4g,%.4g,%llu\n",
+                  body.name.c_str(), body.dimension, body.elements, body.x.size(),
+                  method.name.c_str(), shown(method.order).c_str(),
+                  shown(method.resolution).c_str(), ms, largest, middle, share,
+                  static_cast<unsigned long long>(evaluations));
+    stream_ << line << std::flush;
+    check();
+    std::printf("%-14s %8zu %-22s %1s %4s %10.3f ms  max %.2e  median %.2e  wrong %6.2f %%\n",
+                body.name.c_str(), body.elements, method.name.c_str(), shown(method.order).c_str(),
+                shown(method.resolution).c_str(), ms, largest, middle, 100.0 * share);
+    std::fflush(stdout);
+  }
+
+ private:
+  void check() const
+  {
+    if (!stream_)
+    {
+      throw Error(path_ + ": can't be written");
+    }
+  }
+
+  std::string path_;
+  std::ofstream stream_;
+};
+
+/** The one percent of all nodes that are nearest to the lowest one: what a contact there touches.
+ */
+std::vector<Index> touchedPercent(const FieldBody& body)
+{
+  const int up = body.dimension - 1;
+  const Vec3 spot = *std::min_element(body.x.begin(), body.x.end(),
+                                      [&](const Vec3& a, const Vec3& b) { return a[up] < b[up]; });
+  std::vector<Index> nodes(body.x.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  std::sort(nodes.begin(), nodes.end(), [&](Index a, Index b) {
+    return (body.x[a] - spot).squaredNorm() < (body.x[b] - spot).squaredNorm();
+  });
+  nodes.resize(nodes.size() / 100);
+  return nodes;
+}
+
+/** Grids read at the nodes: linearly, as both papers do, and by slopes; and at a body's middle. */
+void studyGrids(Table& table, const FieldBody& body, const std::vector<int>& resolutions,
+                int repeats)
+{
+  const std::vector<double> truth = trueDepths(body);
+  Box3 box;
+  for (const Vec3& p : body.x)
+  {
+    box.extend(p);
+  }
+  FieldBody middle;  // a body of one node
+  middle.name = body.name + " centre";
+  middle.dimension = body.dimension;
+  middle.elements = body.elements;
+  middle.x = {0.5 * (box.min + box.max)};
+  middle.surface.node_slot = {-1};
+  TriangleTree tree;
+  tree.build(body.surface.triangles, body.x);
+  const double centre = std::sqrt(tree.nearest(middle.x[0], body.x).point.squared_distance);
+  for (const GridOrder order : {GridOrder::first, GridOrder::second})
+  {
+    for (const int resolution : resolutions)
+    {
+      GridField field(
+          GridSpec::around(box, {resolution, resolution, body.dimension == 3 ? resolution : 1}),
+          order);
+      const std::uint64_t before = field.evaluations();
+      const double ms = timed(repeats, [&] { field.march(body.surface, body.x); });
+      const std::uint64_t evaluations = (field.evaluations() - before) / repeats;
+      std::vector<double> linear, slopes;
+      for (const Vec3& p : body.x)
+      {
+        linear.push_back(field.interpolate(p));
+        slopes.push_back(field.extrapolate(p));
+      }
+      const int number = order == GridOrder::second ? 2 : 1;
+      table.add(body, {"grid", number, resolution}, ms, linear, truth, evaluations);
+      table.add(body, {"grid slopes", number, resolution}, ms, slopes, truth, evaluations);
+      if (!(field.interpolate(middle.x[0]) > 0.0))  // a ring has nothing there
+      {
+        continue;
+      }
+      table.add(middle, {"grid", number, resolution}, ms, {field.interpolate(middle.x[0])},
+                {centre}, evaluations);
+      table.add(middle, {"grid slopes", number, resolution}, ms, {field.extrapolate(middle.x[0])},
+                {centre}, evaluations);
+    }
+  }
+}
+
+void studyBody(Table& table, const FieldBody& body, int repeats)
+{
+  const std::vector<double> truth = trueDepths(body);
+  for (const char* method : {"cpfm", "cffm", "exact_marching"})
+  {
+    // The first march, with what it prepares, and those after it.
+    std::unique_ptr<DistanceField> field;
+    const double first_ms = timed(repeats, [&] {
+      field = makeDistanceField(method, body.topology());
+      field->march(body.x);
+    });
+    table.add(body, {std::string(method) + " first"}, first_ms, field->depth(), truth,
+              field->evaluations());
+    std::uint64_t before = field->evaluations();
+    const double again_ms = timed(repeats, [&] { field->march(body.x); });
+    table.add(body, {method}, again_ms, field->depth(), truth,
+              (field->evaluations() - before) / repeats);
+    const std::vector<Index> wanted = touchedPercent(body);
+    before = field->evaluations();
+    const double lazy_ms = timed(repeats, [&] { field->marchUntil(body.x, wanted); });
+    table.add(body, {std::string(method) + " lazy 1 %"}, lazy_ms, field->depth(), truth,
+              (field->evaluations() - before) / repeats);
+  }
+  if (haveCgal() && body.dimension == 3)
+  {
+    std::vector<double> depths;
+    const double ms = timed(std::min(repeats, 3), [&] {
+      depths = cgalDistances(body.x, body.surface.triangles, body.x);
+    });
+    table.add(body, {"cgal tree"}, ms, depths, truth, 0);
+  }
+}
+}  // namespace
+
+void studyFields(const std::string& folder, bool quick)
+{
+  Table table(folder);
+  const int repeats = quick ? 1 : 7;
+  for (const FieldBody& body : {disc(12), rectangle(40, 25), cutRectangle(40, 25)})
+  {
+    studyBody(table, body, repeats);
+    studyGrids(table, body, {20, 100}, repeats);
+  }
+  for (const std::size_t tets : {5000, 20000, 100000, 300000, 1000000})
+  {
+    if (!quick || tets <= 20000)
+    {
+      studyBody(table, bodyOfTets("ball", makeBall(1.0, tets)), tets > 500000 ? 3 : repeats);
+    }
+  }
+  const std::vector<FieldBody> bodies = {
+      bodyOfTets("torus", makeTorus(1.0, 0.4, quick ? 5000 : 100000)),
+      bodyOfTets("lobe", makeLobe(quick ? 5000 : 100000))};
+  for (const FieldBody& body : bodies)
+  {
+    studyBody(table, body, repeats);
+  }
+  // The grids of the first paper's first table, on a ball of as many triangles as its sphere has.
+  const FieldBody ball = bodyOfTets("coarse ball", makeBall(1.0, 5500));
+  studyGrids(table, ball,
+             quick ? std::vector<int>{20, 40} : std::vector<int>{20, 30, 40, 50, 55, 60}, repeats);
+  if (!quick)
+  {
+    studyGrids(table, bodyOfTets("coarse torus", makeTorus(1.0, 0.4, 9000)), {50}, repeats);
+  }
+  if (!haveCgal())
+  {
+    std::printf("built without CGAL: no \"cgal tree\" to compare with (-DSOFT_TISSUE_BENCH=ON)\n");
+  }
+}
+
+}  // namespace soft_tissue::studies

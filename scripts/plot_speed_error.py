@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Draws what speed_error measured: error against time, and time against size.
+
+    plot_speed_error.py DIR    DIR/field.csv becomes DIR/field_error.png and DIR/field_scaling.png
+"""
+import csv
+import os
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt  # noqa: E402  (the backend comes first)
+
+ROUNDING = 1e-16  # where errors of zero are drawn
+
+
+def read(path):
+    with open(path) as stream:
+        rows = list(csv.DictReader(stream))
+    for row in rows:
+        for key in ("ms", "max_err", "median_err", "wrong_fraction"):
+            row[key] = float(row[key])
+        for key in ("dim", "elements", "nodes"):
+            row[key] = int(row[key])
+    return rows
+
+
+def largest_of_each_case(rows):
+    size = {}
+    for row in rows:
+        size[row["case"]] = max(size.get(row["case"], 0), row["elements"])
+    return [row for row in rows if row["elements"] == size[row["case"]] and "lazy" not in row["method"]]
+
+
+def plot_error(rows, path):
+    chosen = largest_of_each_case(rows)
+    cases = list(dict.fromkeys(row["case"] for row in chosen))
+    methods = list(dict.fromkeys(row["method"] for row in chosen))
+    figure, axes = plt.subplots(2, (len(cases) + 1) // 2, figsize=(4 * ((len(cases) + 1) // 2), 7), squeeze=False)
+    for axis, case in zip(axes.flat, cases):
+        of_case = [row for row in chosen if row["case"] == case]
+        for row in of_case:
+            colour = "C%d" % methods.index(row["method"])
+            label = row["method"] + (" " + row["resolution"] if row["resolution"] else "")
+            axis.loglog(row["ms"], max(row["max_err"], ROUNDING), "o", color=colour, label=label)
+            axis.loglog(row["ms"], max(row["median_err"], ROUNDING), "_", markersize=12, color=colour)
+        axis.set_title("%s, %d elements" % (case, of_case[0]["elements"]))
+        axis.set_xlabel("ms")
+        axis.set_ylabel("error: o largest, - median")
+        axis.legend(fontsize=7)
+    for axis in axes.flat[len(cases):]:
+        axis.remove()
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+
+
+def plot_scaling(rows, path):
+    balls = [row for row in rows if row["case"] == "ball"]
+    figure, axis = plt.subplots(figsize=(6, 4.5))
+    for method in dict.fromkeys(row["method"] for row in balls):
+        line = [row for row in balls if row["method"] == method]
+        axis.loglog([row["elements"] for row in line], [1e6 * row["ms"] / row["nodes"] for row in line], "o-",
+                    label=method)
+    axis.set_xlabel("tets of a ball")
+    axis.set_ylabel("ns per node")
+    axis.legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folder = sys.argv[1]
+    rows = read(os.path.join(folder, "field.csv"))
+    plot_error(rows, os.path.join(folder, "field_error.png"))
+    plot_scaling(rows, os.path.join(folder, "field_scaling.png"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""speed_error in its quick form: what it writes, and that the exact field is exact in it."""
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../scripts"))
+import plot_speed_error
+
+PROGRAM = os.environ["SPEED_ERROR"]
+
+
+class SpeedError(unittest.TestCase):
+    def test_fields(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "field", "--out", folder, "--quick"], check=True, stdout=subprocess.DEVNULL)
+            with open(os.path.join(folder, "field.csv")) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual(list(rows[0]), ["case", "dim", "elements", "nodes", "method", "order", "resolution", "ms",
+                                             "max_err", "median_err", "wrong_fraction", "evaluations"])
+            exact = [row for row in rows if row["method"].startswith("exact_marching")]
+            self.assertGreaterEqual(len({(row["case"], row["elements"]) for row in exact}), 6)
+            for row in exact:
+                self.assertEqual(float(row["max_err"]), 0.0, row)
+            wrong = {row["method"]: float(row["wrong_fraction"]) for row in rows if row["case"] == "ball"}
+            self.assertGreater(wrong["cffm"], 0.0)
+            self.assertGreater(wrong["cpfm"], wrong["cffm"])
+            plot_speed_error.plot_error(plot_speed_error.read(os.path.join(folder, "field.csv")),
+                                        os.path.join(folder, "error.png"))
+            self.assertGreater(os.path.getsize(os.path.join(folder, "error.png")), 1000)
+
+    def test_bad_calls(self):
+        for arguments in ([], ["field"], ["magic", "--out", "x"], ["field", "--out"]):
+            result = subprocess.run([PROGRAM] + arguments, stderr=subprocess.PIPE, check=False)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(b"usage", result.stderr)
+        result = subprocess.run([PROGRAM, "field", "--out", "/nowhere/at/all"], stderr=subprocess.PIPE, check=False)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(b"/nowhere/at/all/field.csv", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
