@@ -181,6 +181,22 @@ void studyGrids(Table& table, const FieldBody& body, const std::vector<int>& res
       const std::uint64_t before = field.evaluations();
       const double ms = timed(repeats, [&] { field.march(body.surface, body.x); });
       const std::uint64_t evaluations = (field.evaluations() - before) / repeats;
+      if (body.dimension == 3)
+      {
+        // An octant, where nothing has moved, as for the first paper's "1/8 update".
+        const Box3 octant = {0.5 * (box.min + box.max), box.max};
+        const std::uint64_t start = field.evaluations();
+        const double update_ms =
+            timed(repeats, [&] { field.update({octant}, body.surface, body.x); });
+        std::vector<double> updated;
+        for (const Vec3& p : body.x)
+        {
+          updated.push_back(field.interpolate(p));
+        }
+        table.add(body, {"grid update 1/8", order == GridOrder::second ? 2 : 1, resolution},
+                  update_ms, updated, truth, (field.evaluations() - start) / repeats);
+        field.march(body.surface, body.x);
+      }
       std::vector<double> linear, slopes;
       for (const Vec3& p : body.x)
       {

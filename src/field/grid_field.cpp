@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "grid_band.h"
 #include "node_heap.h"
-#include "surface_sign.h"
 #include "upwind.h"
 
 namespace soft_tissue
@@ -13,6 +13,12 @@ namespace soft_tissue
 namespace
 {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/** Jumps across the border of an updated region, in cells: less is taken as it is, more makes the
+ * whole grid be marched anew; what is between is led over across some cells. */
+constexpr double kSmallJump = 0.01;
+constexpr double kLargeJump = 0.25;
+constexpr int kBlendCells = 3;
 
 enum class State : char
 {
@@ -32,7 +38,7 @@ class GridField::Marching
         stride_{1, grid.count[0], grid.count[0] * grid.count[1]},
         depth_(grid.size(), kNone),
         state_(grid.size(), State::far),
-        place_(grid.size(), -1),
+        band_(grid, second_ ? 2 : 1),
         heap_(grid.size())
   {}
 
@@ -40,26 +46,24 @@ class GridField::Marching
   {
     std::fill(depth_.begin(), depth_.end(), kNone);
     std::fill(state_.begin(), state_.end(), State::far);
-    for (const Near& near : band_)
+    region_ = GridRegion::whole(grid_);
+    marchRegion(surface, x);
+  }
+
+  GridUpdate update(const std::vector<Box3>& boxes, const BoundarySurface& surface, const Points& x)
+  {
+    GridUpdate report;
+    for (const GridRegion& region : mergedRegions(grid_, boxes))
     {
-      place_[near.grid_point] = -1;
+      region_ = region;
+      report.points += renewRegion(surface, x, report);
     }
-    band_.clear();
-    collectBand(surface, x);
-    settleBand(surface, x);
-    for (const Near& near : band_)
+    if (report.largest_jump > kLargeJump * grid_.spacing.head(dimension_).minCoeff())
     {
-      if (state_[near.grid_point] == State::known && depth_[near.grid_point] > 0.0)
-      {
-        relaxNeighbours(near.grid_point);
-      }
+      march(surface, x);
+      report.whole = true;
     }
-    while (!heap_.empty())
-    {
-      const Index point = heap_.pop();
-      state_[point] = State::known;
-      relaxNeighbours(point);
-    }
+    return report;
   }
 
   double interpolate(const Vec3& p) const
@@ -91,17 +95,9 @@ class GridField::Marching
 
   const GridSpec& grid() const { return grid_; }
   const std::vector<double>& depth() const { return depth_; }
-  std::uint64_t evaluations() const { return evaluations_; }
+  std::uint64_t evaluations() const { return evaluations_ + band_.evaluations(); }
 
  private:
-  /** A grid point near the surface, with the nearest triangle whose box it is in. */
-  struct Near
-  {
-    Index grid_point;
-    Index triangle;
-    TrianglePoint nearest;
-  };
-
   /** Calls visit(point, weight) for the corners of p's cell, until it returns false. */
   template <typename Visit>
   void forCorners(const Vec3& p, const Visit& visit) const
@@ -159,74 +155,106 @@ class GridField::Marching
     return slope;
   }
 
-  int bandCells() const { return second_ ? 2 : 1; }
-
-  /** All points in the boxes of triangles, made wider by some cells. */
-  void collectBand(const BoundarySurface& surface, const Points& x)
+  /** Marches within region_, whose points are far, from the surface and from known points beside
+   * it. */
+  void marchRegion(const BoundarySurface& surface, const Points& x)
   {
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    const std::vector<GridBand::Value>& band = band_.collect(region_, surface, x);
+    for (const GridBand::Value& value : band)
     {
-      const Triangle& triangle = surface.triangles[t];
-      Box3 box;
-      for (const Index node : triangle)
+      depth_[value.grid_point] = value.depth;
+      state_[value.grid_point] = State::known;
+    }
+    for (const GridBand::Value& value : band)
+    {
+      if (value.depth > 0.0)
       {
-        box.extend(x[node]);
+        relaxNeighbours(value.grid_point);
       }
-      int first[3], last[3];
-      for (int axis = 0; axis < 3; ++axis)
+    }
+    forBorder([&](Index inside, Index outside) {
+      if (state_[outside] == State::known && depth_[outside] > 0.0 &&
+          state_[inside] != State::known)
       {
-        const double low = (box.min[axis] - grid_.origin[axis]) / grid_.spacing[axis] - bandCells();
-        const double high =
-            (box.max[axis] - grid_.origin[axis]) / grid_.spacing[axis] + bandCells();
-        const double end = grid_.count[axis] - 1;
-        first[axis] =
-            axis < dimension_ ? static_cast<int>(std::ceil(std::clamp(low, 0.0, end))) : 0;
-        last[axis] =
-            axis < dimension_ ? static_cast<int>(std::floor(std::clamp(high, -1.0, end))) : 0;
+        relax(inside);
       }
-      for (int k = first[2]; k <= last[2]; ++k)
+    });
+    while (!heap_.empty())
+    {
+      const Index point = heap_.pop();
+      state_[point] = State::known;
+      relaxNeighbours(point);
+    }
+  }
+
+  /** Marches region_ anew and fits it to what is around. @return how many points it has */
+  Index renewRegion(const BoundarySurface& surface, const Points& x, GridUpdate& report)
+  {
+    old_.clear();
+    region_.forPoints(grid_, [&](Index point) {
+      old_.push_back(depth_[point]);
+      depth_[point] = kNone;
+      state_[point] = State::far;
+    });
+    marchRegion(surface, x);
+    double jump = 0.0;
+    forBorder([&](Index inside, Index outside) {
+      if (state_[inside] == State::known && state_[outside] == State::known &&
+          depth_[outside] > 0.0)
       {
-        for (int j = first[1]; j <= last[1]; ++j)
+        jump = std::max(jump, std::abs(upwind(outside) - depth_[outside]));
+      }
+    });
+    report.largest_jump = std::max(report.largest_jump, jump);
+    const double cell = grid_.spacing.head(dimension_).minCoeff();
+    if (jump > kSmallJump * cell && jump <= kLargeJump * cell)
+    {
+      blend();
+      report.blended = true;
+    }
+    return static_cast<Index>(old_.size());
+  }
+
+  /** Leads over from what was there to what is there now, across some cells from the border on. */
+  void blend()
+  {
+    std::size_t place = 0;
+    region_.forPoints(grid_, [&](Index point) {
+      const double before = old_[place++];
+      int away = kBlendCells;
+      for (int axis = 0; axis < dimension_; ++axis)
+      {
+        const Index here = point / stride_[axis] % grid_.count[axis];
+        away = region_.first[axis] > 0 ? std::min(away, here - region_.first[axis]) : away;
+        away = region_.last[axis] + 1 < grid_.count[axis]
+                   ? std::min(away, region_.last[axis] - here)
+                   : away;
+      }
+      const double share = (away + 1.0) / (kBlendCells + 1.0);
+      if (before > 0.0 && depth_[point] > 0.0)
+      {
+        depth_[point] = share * depth_[point] + (1.0 - share) * before;
+      }
+    });
+  }
+
+  /** Calls visit(inside, outside) for pairs of neighbours across the border of region_. */
+  template <typename Visit>
+  void forBorder(const Visit& visit) const
+  {
+    for (int axis = 0; axis < dimension_; ++axis)
+    {
+      for (const bool upper : {false, true})
+      {
+        GridRegion side = region_;
+        int& end = upper ? side.first[axis] : side.last[axis];
+        end = upper ? region_.last[axis] : region_.first[axis];
+        const int outside = end + (upper ? 1 : -1);
+        if (outside >= 0 && outside < grid_.count[axis])
         {
-          for (int i = first[0]; i <= last[0]; ++i)
-          {
-            offer(grid_.index(i, j, k), static_cast<Index>(t), triangle, x);
-          }
+          const Index step = upper ? stride_[axis] : -stride_[axis];
+          side.forPoints(grid_, [&](Index point) { visit(point, point + step); });
         }
-      }
-    }
-  }
-
-  void offer(Index point, Index t, const Triangle& triangle, const Points& x)
-  {
-    ++evaluations_;
-    const TrianglePoint nearest =
-        closestOnTriangle(grid_.point(point), x[triangle[0]], x[triangle[1]], x[triangle[2]]);
-    if (place_[point] < 0)
-    {
-      place_[point] = static_cast<Index>(band_.size());
-      band_.push_back({point, t, nearest});
-    }
-    else if (nearest.squared_distance < band_[place_[point]].nearest.squared_distance)
-    {
-      band_[place_[point]] = {point, t, nearest};
-    }
-  }
-
-  /** Gives points of the band their exact value. One inside and farther than the band is wide may
-   * be nearer to a triangle whose box it isn't in: that is left to the march. */
-  void settleBand(const BoundarySurface& surface, const Points& x)
-  {
-    const SurfaceSign sign(surface, x);
-    const double width = bandCells() * grid_.spacing.head(dimension_).minCoeff();
-    for (const Near& near : band_)
-    {
-      const double distance = std::sqrt(near.nearest.squared_distance);
-      const bool inside = sign.inside(grid_.point(near.grid_point), near.triangle, near.nearest);
-      if (!inside || distance <= width)
-      {
-        depth_[near.grid_point] = inside ? distance : -distance;
-        state_[near.grid_point] = State::known;
       }
     }
   }
@@ -236,11 +264,11 @@ class GridField::Marching
     for (int axis = 0; axis < dimension_; ++axis)
     {
       const Index place = point / stride_[axis] % grid_.count[axis];
-      if (place > 0 && state_[point - stride_[axis]] != State::known)
+      if (place > region_.first[axis] && state_[point - stride_[axis]] != State::known)
       {
         relax(point - stride_[axis]);
       }
-      if (place + 1 < grid_.count[axis] && state_[point + stride_[axis]] != State::known)
+      if (place < region_.last[axis] && state_[point + stride_[axis]] != State::known)
       {
         relax(point + stride_[axis]);
       }
@@ -304,8 +332,9 @@ class GridField::Marching
   Index stride_[3];
   std::vector<double> depth_;
   std::vector<State> state_;
-  std::vector<Near> band_;
-  std::vector<Index> place_;  ///< per point: in band_, -1 outside it
+  GridBand band_;
+  GridRegion region_;        ///< that is being marched
+  std::vector<double> old_;  ///< what its points had before
   NodeHeap heap_;
   std::uint64_t evaluations_ = 0;
 };
@@ -315,10 +344,18 @@ GridField::GridField(const GridSpec& grid, GridOrder order)
 {}
 
 GridField::~GridField() = default;
+GridField::GridField(GridField&&) noexcept = default;
+GridField& GridField::operator=(GridField&&) noexcept = default;
 
 void GridField::march(const BoundarySurface& surface, const Points& x)
 {
   marching_->march(surface, x);
+}
+
+GridUpdate GridField::update(const std::vector<Box3>& boxes, const BoundarySurface& surface,
+                             const Points& x)
+{
+  return marching_->update(boxes, surface, x);
 }
 
 const GridSpec& GridField::grid() const

@@ -35,6 +35,15 @@ enum class GridOrder
   second,  ///< where the two points it needs are known and fall, else first
 };
 
+/** How an update of parts of a grid went. */
+struct GridUpdate
+{
+  Index points = 0;           ///< marched anew in boxes
+  double largest_jump = 0.0;  ///< at their borders, m
+  bool blended = false;       ///< some small jump was led over
+  bool whole = false;         ///< a jump was too large: all was marched anew
+};
+
 /**
  * Depth inside a closed surface on a regular grid, by fast marching inwards from a band of exact
  * distances. It knows nothing of the deformation of a body: it is marched anew.
@@ -47,6 +56,8 @@ class GridField
   /** @throws Error for a grid without extent or with more than 2^30 points */
   GridField(const GridSpec& grid, GridOrder order);
   ~GridField();
+  GridField(GridField&&) noexcept;
+  GridField& operator=(GridField&&) noexcept;
 
   /**
    * Marches the whole grid.
@@ -54,6 +65,17 @@ class GridField
    * @param x        N x 3, m
    */
   void march(const BoundarySurface& surface, const Points& x);
+
+  /**
+   * Marches boxes alone, after the surface has moved in them, and fits them to the rest.
+   *
+   * Values around a box count as they are. Where they don't fit to those found in it by the upwind
+   * equation, a small difference is led over linearly across a few cells, a large one makes the
+   * whole grid be marched. Boxes that overlap become one.
+   * @param boxes  m; should hold all that moved, with some cells around it
+   */
+  GridUpdate update(const std::vector<Box3>& boxes, const BoundarySurface& surface,
+                    const Points& x);
 
   const GridSpec& grid() const;
 

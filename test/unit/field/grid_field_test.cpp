@@ -206,6 +206,109 @@ TEST(GridField, RepeatsItselfBitForBit)
   }
 }
 
+/** Largest difference of the depths inside of two fields on one grid, m. */
+double difference(const GridField& a, const GridField& b)
+{
+  double largest = 0.0;
+  for (std::size_t point = 0; point < a.depth().size(); ++point)
+  {
+    const double da = a.depth()[point], db = b.depth()[point];
+    EXPECT_EQ(da > 0.0, db > 0.0) << "inside is inside";
+    if (da > 0.0)
+    {
+      largest = std::max(largest, std::abs(da - db));
+    }
+  }
+  return largest;
+}
+
+/** A ball with a grid around it, marched at rest. */
+struct GriddedBall
+{
+  FieldBody body{test::ballMesh(14, 1.0)};
+  GridSpec grid = GridSpec::around(boundsOf(body.mesh.nodes), {40, 40, 40});
+  double cell = grid.spacing.x();
+
+  GridField marched(const Points& x) const
+  {
+    GridField field(grid, GridOrder::second);
+    field.march(body.surface, x);
+    return field;
+  }
+
+  /** Pressed in by this depth about the end of the x axis, over half a radius. */
+  Points dented(double depth) const
+  {
+    Points x = body.mesh.nodes;
+    for (Vec3& p : x)
+    {
+      const double away = (p - Vec3::UnitX()).norm() / 0.5;
+      p.x() -= away < 1.0 ? depth * (1.0 - away * away) * (1.0 - away * away) : 0.0;
+    }
+    return x;
+  }
+};
+
+constexpr double kOutside = 2.0;
+
+Box3 boxFrom(double x)
+{
+  Box3 box;
+  box.extend(Vec3(x, -0.8, -0.8));
+  box.extend(Vec3(kOutside, 0.8, 0.8));
+  return box;
+}
+
+TEST(GridUpdate, OfWhatDidNotMoveChangesNothing)
+{
+  const GriddedBall ball;
+  const Points& x = ball.body.mesh.nodes;
+  const GridField before = ball.marched(x);
+  GridField field = ball.marched(x);
+  const GridUpdate report = field.update({boxFrom(0.2)}, ball.body.surface, x);
+  EXPECT_FALSE(report.whole);
+  EXPECT_GT(report.points, 1000);
+  EXPECT_LT(report.largest_jump, 0.1 * ball.cell);
+  EXPECT_LT(difference(field, before), 0.1 * ball.cell);
+}
+
+TEST(GridUpdate, OfADentAgreesWithAMarchOfEverything)
+{
+  const GriddedBall ball;
+  GridField field = ball.marched(ball.body.mesh.nodes);
+  for (const double depth : {0.01, 0.02, 0.03})
+  {
+    const Points x = ball.dented(depth);
+    const std::uint64_t before = field.evaluations();
+    // Two boxes that overlap, and one that holds no point of the grid.
+    Box3 upper = boxFrom(0.05), lower = boxFrom(0.05), beside;
+    upper.min.z() = -0.2;
+    lower.max.z() = 0.2;
+    beside.extend(Vec3::Constant(7.0));
+    const GridUpdate report = field.update({upper, lower, beside}, ball.body.surface, x);
+    const std::uint64_t update_evaluations = field.evaluations() - before;
+    const GridField all = ball.marched(x);
+    EXPECT_FALSE(report.whole) << depth;
+    EXPECT_LT(update_evaluations, all.evaluations() / 2);
+    EXPECT_LT(difference(field, all), 0.5 * ball.cell) << depth;
+  }
+}
+
+TEST(GridUpdate, ThatDoesNotFitMarchesEverything)
+{
+  const GriddedBall ball;
+  Points pressed = ball.body.mesh.nodes;
+  for (Vec3& p : pressed)
+  {
+    p.z() *= 0.6;
+  }
+  GridField field = ball.marched(ball.body.mesh.nodes);
+  const GridUpdate report = field.update({boxFrom(0.3)}, ball.body.surface, pressed);
+  EXPECT_TRUE(report.whole);
+  EXPECT_GT(report.largest_jump, 0.25 * ball.cell);
+  EXPECT_EQ(difference(field, ball.marched(pressed)), 0.0);
+}
+
 TEST(GridField, RefusesGridsWithoutExtent)
 {
   GridSpec grid;

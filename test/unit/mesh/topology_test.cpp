@@ -145,10 +145,28 @@ TEST(Topology, faceSharedByThreeTetsIsNoBoundary)
   EXPECT_EQ(extractBoundary(6, tets).triangles.size(), 9U);
 }
 
+TEST(Topology, thePlaneHasEdgesForABoundary)
+{
+  // Two triangles side by side: four edges outside, one between them.
+  const std::vector<Triangle> triangles = {{0, 1, 2}, {0, 2, 3}};
+  const BoundarySurface boundary = extractPlanarBoundary(5, triangles);
+  EXPECT_EQ(boundary.triangles,
+            std::vector<Triangle>({{0, 1, 1}, {1, 2, 2}, {2, 3, 3}, {3, 0, 0}}));
+  EXPECT_EQ(boundary.triangle_tet, std::vector<Index>({0, 0, 1, 1}));
+  EXPECT_EQ(boundary.nodes, std::vector<Index>({0, 1, 2, 3}));
+  EXPECT_EQ(boundary.node_slot[4], -1);
+  EXPECT_EQ(std::vector<Index>(boundary.node_triangles.begin(2), boundary.node_triangles.end(2)),
+            std::vector<Index>({1, 2}));
+  const Adjacency neighbours = nodeNeighbours(5, triangles);
+  EXPECT_EQ(std::vector<Index>(neighbours.begin(0), neighbours.end(0)),
+            std::vector<Index>({1, 2, 3}));
+  EXPECT_EQ(std::vector<Index>(neighbours.begin(1), neighbours.end(1)), std::vector<Index>({0, 2}));
+}
+
 TEST(Topology, emptyMeshGivesEmptyRows)
 {
   EXPECT_EQ(nodeTets(3, {}).size(), 3);
-  EXPECT_EQ(nodeNeighbours(3, {}).items.size(), 0U);
+  EXPECT_EQ(nodeNeighbours(3, std::vector<Tet>()).items.size(), 0U);
   EXPECT_TRUE(extractBoundary(3, {}).triangles.empty());
 }
 }  // namespace
