@@ -46,7 +46,6 @@ bool SurfaceSign::inside(const Vec3& p, Index triangle, const TrianglePoint& nea
   return (p - nearest.point).dot(normal(triangle, nearest.weights)) < 0.0;
 }
 
-/** Of the face, edge or node that the weights tell of; not of unit length. */
 Vec3 SurfaceSign::normal(Index triangle, const Vec3& weights) const
 {
   const Triangle& t = surface_.triangles[triangle];

@@ -20,9 +20,10 @@ class SurfaceSign
   /** Whether p is inside, given the nearest point of the surface and the triangle it is on. */
   bool inside(const Vec3& p, Index triangle, const TrianglePoint& nearest) const;
 
- private:
+  /** Outward normal of the face, edge or node that the weights tell of; not of unit length. */
   Vec3 normal(Index triangle, const Vec3& weights) const;
 
+ private:
   const BoundarySurface& surface_;
   Points faces_, nodes_;
 };

@@ -89,6 +89,8 @@ void SimNode::addOutputs()
       [this](const ros::SingleSubscriberPublisher&) { publisher_.republish(); };
   scene_topics_ = std::make_unique<SceneTopics>(node_, info_, depths_, params_.markers,
                                                 params_.publish_clock, world, on_subscriber);
+  distances_ = std::make_unique<DistanceService>(node_, info_, world);
+  publisher_.addStream(0.0, [this](const Frame& frame) { distances_->note(frame); });
   diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, gates_);
   publisher_.addStream(0.0, [this](const Frame& frame) { diagnostics_->note(frame); });
   if (params_.publish_clock)

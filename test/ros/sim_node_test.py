@@ -12,8 +12,9 @@ import rospy
 import rostest
 import tf2_ros
 from diagnostic_msgs.msg import DiagnosticStatus
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Point, TransformStamped
 from soft_tissue_sim.msg import TissueField
+from soft_tissue_sim.srv import QueryDistance
 from visualization_msgs.msg import Marker, MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -55,6 +56,38 @@ class SimNodeTest(unittest.TestCase):
             self.assertGreater(spatial.wrench.force.z, 0.02)
             self.assertAlmostEqual(getattr(body.wrench.force, out_of_tissue),
                                    spatial.wrench.force.z, places=9)
+
+    def test_distances_are_those_of_the_tissue_as_it_is(self):
+        rospy.wait_for_service(NODE + "/query_distance", PATIENCE_S)
+        query = rospy.ServiceProxy(NODE + "/query_distance", QueryDistance)
+        client = self.client
+        nan = float("nan")
+        points = [Point(0.03 - 0.005, 0.0, 0.012), Point(0.0, 0.0, 0.003), Point(0.0, 0.0, -0.02),
+                  Point(0.0, 0.0, -0.05), Point(nan, 0.0, 0.0)]
+        self.pressed_messages((0, 0, 0, 1))
+        for name in ("", "block"):
+            found = query(tissue=name, points=points, max_distance=0.03)
+            self.assertTrue(found.success, found.message)
+            self.assertEqual(found.header.frame_id, "world")
+            self.assertGreater(found.step, 0)
+            self.assertAlmostEqual(found.depths[0], 0.005, delta=0.001)  # its side, bulged a little
+            self.assertGreater(found.gradients[0].x, -1.01)
+            self.assertLess(found.gradients[0].x, -0.9)
+            self.assertAlmostEqual(found.depths[1], 0.003, places=9)  # above its fixed bottom
+            self.assertAlmostEqual(found.gradients[1].z, 1.0, places=9)
+            self.assertAlmostEqual(found.depths[2], -0.02, places=9)
+            self.assertAlmostEqual(found.gradients[2].z, 1.0, places=9)
+            self.assertEqual(found.depths[3], -float("inf"))
+            self.assertTrue(math.isnan(found.depths[4]))
+            self.assertEqual(list(found.tissues), ["block"] * 4 + [""])
+        # Beside the pressed probe the top lies lower than at rest.
+        tip = [Point(0.0, 0.0, 0.03 - 0.0005)]
+        self.assertLess(query(points=tip).depths[0], 0.0)
+        client.move_to(ABOVE)
+        client.reset()
+        wait_until(lambda: query(points=tip).depths[0] > 0.0, "the top is back")
+        self.assertIn("block", query(tissue="liver", points=points).message)
+        self.assertIn("max_distance", query(points=points, max_distance=-1.0).message)
 
     def test_contacts_add_up_to_force_and_moment_about_the_tools_origin(self):
         found = self.pressed_messages((0, 0, 0, 1))

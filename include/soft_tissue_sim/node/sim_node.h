@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "soft_tissue_sim/node/diagnostics.h"
+#include "soft_tissue_sim/node/distance_service.h"
 #include "soft_tissue_sim/node/frame_publisher.h"
 #include "soft_tissue_sim/node/node_params.h"
 #include "soft_tissue_sim/node/sim_services.h"
@@ -59,6 +60,7 @@ class SimNode
   std::deque<ToolTopics> tool_topics_;
   std::unique_ptr<Diagnostics> diagnostics_;
   ros::WallTimer diagnostics_timer_;
+  std::unique_ptr<DistanceService> distances_;
   std::unique_ptr<SimServices> services_;
 };
 
