@@ -162,7 +162,7 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
 
 int NewtonSolver::affordableLinearIterations() const
 {
-  const double left_s = budget_s_ - evaluation_s_ - timer_.seconds();
+  const double left_s = std::max(budget_s_ - evaluation_s_ - timer_.seconds(), 0.0);
   constexpr double kMost = std::numeric_limits<int>::max();
   return left_s < kMost * linear_iteration_s_
              ? std::max(static_cast<int>(left_s / linear_iteration_s_), kFewestLinear)
