@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <numeric>
 
 #include "closest_point_tree.h"
+#include "deformed_field_study.h"
 #include "field_bodies.h"
-#include "soft_tissue_sim/base/error.h"
-#include "soft_tissue_sim/base/timer.h"
+#include "field_table.h"
 #include "soft_tissue_sim/field/grid_field.h"
 #include "soft_tissue_sim/geometry/triangle_tree.h"
 #include "soft_tissue_sim/mesh/generate.h"
@@ -23,26 +21,6 @@ namespace
 {
 /** More boundary triangles times nodes than that are too many for brute force. */
 constexpr double kMostPairs = 3e8;
-
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/** Median wall time of several calls, ms. */
-double timed(int repeats, const std::function<void()>& call)
-{
-  std::vector<double> ms;
-  for (int k = 0; k < repeats; ++k)
-  {
-    const Timer timer;
-    call();
-    ms.push_back(1e3 * timer.seconds());
-  }
-  return median(ms);
-}
 
 /** The true depths: of all triangles one after the other, or where those are too many, by a tree
  * without any hint, which tests hold against brute force. */
@@ -66,75 +44,6 @@ std::vector<double> trueDepths(const FieldBody& body)
   }
   return depths;
 }
-
-/** field.csv, a line a measurement, each shown as well. */
-class Table
-{
- public:
-  explicit Table(const std::string& folder) : path_(folder + "/field.csv"), stream_(path_)
-  {
-    stream_ << "case,dim,elements,nodes,method,order,resolution,ms,max_err,median_err,"
-               "wrong_fraction,evaluations\n";
-    check();
-  }
-
-  /** What was measured, and how. */
-  struct Method
-  {
-    std::string name;
-    int order = 0;       ///< of a grid's scheme
-    int resolution = 0;  ///< points of a grid along its longest axis
-  };
-
-  /** @param depths  of all nodes; errors are taken over those inside */
-  void add(const FieldBody& body, const Method& method, double ms,
-           const std::vector<double>& depths, const std::vector<double>& truth,
-           std::uint64_t evaluations)
-  {
-    std::vector<double> errors;
-    double wrong = 0.0, deepest = 0.0;
-    for (std::size_t node = 0; node < depths.size(); ++node)
-    {
-      deepest = std::max(deepest, truth[node]);
-    }
-    for (std::size_t node = 0; node < depths.size(); ++node)
-    {
-      if (body.surface.node_slot[node] < 0 && std::isfinite(depths[node]))
-      {
-        errors.push_back(std::abs(depths[node] - truth[node]));
-        wrong += errors.back() > 1e-12 * deepest ? 1.0 : 0.0;
-      }
-    }
-    const double largest = errors.empty() ? 0.0 : *std::max_element(errors.begin(), errors.end());
-    const double middle = errors.empty() ? 0.0 : median(errors);
-    const double share = errors.empty() ? 0.0 : wrong / static_cast<double>(errors.size());
-    const auto shown = [](int number) { return number > 0 ? std::to_string(number) : ""; };
-    char line[400];
-    std::snprintf(line, sizeof(line), "%s,%d,%zu,%zu,%s,%s,%s,%.4g,%.4g,%.4g,%.4g,%llu\n",
-                  body.name.c_str(), body.dimension, body.elements, body.x.size(),
-                  method.name.c_str(), shown(method.order).c_str(),
-                  shown(method.resolution).c_str(), ms, largest, middle, share,
-                  static_cast<unsigned long long>(evaluations));
-    stream_ << line << std::flush;
-    check();
-    std::printf("%-14s %8zu %-22s %1s %4s %10.3f ms  max %.2e  median %.2e  wrong %6.2f %%\n",
-                body.name.c_str(), body.elements, method.name.c_str(), shown(method.order).c_str(),
-                shown(method.resolution).c_str(), ms, largest, middle, 100.0 * share);
-    std::fflush(stdout);
-  }
-
- private:
-  void check() const
-  {
-    if (!stream_)
-    {
-      throw Error(path_ + ": can't be written");
-    }
-  }
-
-  std::string path_;
-  std::ofstream stream_;
-};
 
 /** The one percent of all nodes that are nearest to the lowest one: what a contact there touches.
  */
@@ -283,6 +192,7 @@ void studyFields(const std::string& folder, bool quick)
   {
     studyGrids(table, bodyOfTets("coarse torus", makeTorus(1.0, 0.4, 9000)), {50}, repeats);
   }
+  studyDeformedFields(table, quick);
   if (!haveCgal())
   {
     std::printf("built without CGAL: no \"cgal tree\" to compare with (-DSOFT_TISSUE_BENCH=ON)\n");
