@@ -2,6 +2,8 @@
 """Draws what speed_error measured: error against time, and time against size.
 
     plot_speed_error.py DIR    DIR/field.csv becomes DIR/field_error.png and DIR/field_scaling.png
+
+Squares are grids of the second order, numbers their points along an axis.
 """
 import csv
 import os
@@ -12,6 +14,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402  (the backend comes first)
 
+COLUMNS = 4
 ROUNDING = 1e-16  # where errors of zero are drawn
 
 
@@ -37,22 +40,30 @@ def plot_error(rows, path):
     chosen = largest_of_each_case(rows)
     cases = list(dict.fromkeys(row["case"] for row in chosen))
     methods = list(dict.fromkeys(row["method"] for row in chosen))
-    figure, axes = plt.subplots(2, (len(cases) + 1) // 2, figsize=(4 * ((len(cases) + 1) // 2), 7), squeeze=False)
+    lines = (len(cases) + COLUMNS - 1) // COLUMNS
+    figure, axes = plt.subplots(lines, COLUMNS, figsize=(4 * COLUMNS, 3.5 * lines), squeeze=False)
     for axis, case in zip(axes.flat, cases):
         of_case = [row for row in chosen if row["case"] == case]
+        named = set()
         for row in of_case:
-            colour = "C%d" % methods.index(row["method"])
-            label = row["method"] + (" " + row["resolution"] if row["resolution"] else "")
-            axis.loglog(row["ms"], max(row["max_err"], ROUNDING), "o", color=colour, label=label)
+            number = methods.index(row["method"])
+            marker = "s" if row["order"] == "2" else "o"
+            label = None if row["method"] in named else row["method"]
+            named.add(row["method"])
+            colour = plt.cm.tab20(number % 20)
+            axis.loglog(row["ms"], max(row["max_err"], ROUNDING), marker, color=colour, label=label)
             axis.loglog(row["ms"], max(row["median_err"], ROUNDING), "_", markersize=12, color=colour)
+            if row["resolution"]:
+                axis.annotate(row["resolution"], (row["ms"], max(row["max_err"], ROUNDING)), fontsize=6)
         axis.set_title("%s, %d elements" % (case, of_case[0]["elements"]))
         axis.set_xlabel("ms")
         axis.set_ylabel("error: o largest, - median")
-        axis.legend(fontsize=7)
+        axis.legend(fontsize=6)
     for axis in axes.flat[len(cases):]:
         axis.remove()
     figure.tight_layout()
-    figure.savefig(path, dpi=120)
+    figure.savefig(path, dpi=100)
+    plt.close(figure)
 
 
 def plot_scaling(rows, path):
