@@ -170,7 +170,10 @@ Vec3 TriangleTree::renewTriangle(TriangleTreeNode& node, int k, const Points& x)
   const bool flat = !(squared > kNeedle * ab.squaredNorm() * ac.squaredNorm());
   const Vec3 normal = flat ? Vec3(Vec3::Zero()) : Vec3(cross / std::sqrt(squared));
   place(node, k, a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), normal);
-  node.low[k] = node.high[k] = normal.dot(a);
+  // A sliver's normal is inexact: its corners need not be at one height.
+  const Vec3 heights(normal.dot(a), normal.dot(b), normal.dot(c));
+  node.low[k] = heights.minCoeff();
+  node.high[k] = heights.maxCoeff();
   return normal;
 }
 

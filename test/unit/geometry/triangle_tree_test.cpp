@@ -32,9 +32,10 @@ Soup randomSoup(RandomGeometry& random, int count, double size)
     for (int k = 0; k < 3; ++k)
     {
       const bool needle = i % 7 == 3, point = i % 11 == 5;
-      soup.x.push_back(point    ? centre
-                       : needle ? Vec3(centre + k * side)
-                                : centre + random.point(size));
+      soup.x.push_back(point ? centre
+                       : needle
+                           ? Vec3(centre + k * side + random.point(i % 2 == 0 ? 0.0 : 1e-5 * size))
+                           : centre + random.point(size));
     }
     soup.triangles.push_back({first, first + 1, first + 2});
     if (i % 13 == 7)
