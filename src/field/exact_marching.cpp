@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "field_checks.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/geometry/morton_order.h"
 
@@ -11,23 +10,13 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr double kNotMarched = std::numeric_limits<double>::quiet_NaN();
 constexpr Index kGrain = 1024;
 }  // namespace
 
-ExactMarching::ExactMarching(const FieldTopology& topology) : topology_(checked(topology))
+ExactMarching::ExactMarching(const FieldTopology& topology) : NodalField(topology)
 {
-  const std::size_t node_count = topology_.node_neighbours->size();
-  depth_.assign(node_count, kNotMarched);
-  closest_.assign(node_count, -1);
-  hint_.assign(node_count, -1);
-  rank_.assign(node_count, -1);
-  touched_.reserve(node_count);
-  for (const Index node : topology_.surface->nodes)
-  {
-    depth_[node] = 0.0;
-    closest_[node] = *topology_.surface->node_triangles.begin(node);
-  }
+  hint_.assign(nodeCount(), -1);
+  rank_.assign(nodeCount(), -1);
 }
 
 void ExactMarching::march(const Points& x)
@@ -47,7 +36,7 @@ void ExactMarching::march(const Points& x)
 
 void ExactMarching::marchUntil(const Points& x, const std::vector<Index>& wanted)
 {
-  checkWanted(wanted, x.size());
+  checkWanted(wanted);
   begin(x);
   for (const Index node : wanted)
   {
@@ -62,13 +51,7 @@ void ExactMarching::marchUntil(const Points& x, const std::vector<Index>& wanted
 /** Forgets the last march and takes the surface as it is now. */
 void ExactMarching::begin(const Points& x)
 {
-  checkPositions(x, depth_.size());
-  for (const Index node : touched_)
-  {
-    depth_[node] = kNotMarched;
-    closest_[node] = -1;
-  }
-  touched_.clear();
+  forgetMarch(x);
   if (tree_.empty() && !topology_.surface->triangles.empty())
   {
     tree_.build(topology_.surface->triangles, x);

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "field_checks.h"
 #include "soft_tissue_sim/geometry/closest_point.h"
 
 namespace soft_tissue
 {
 namespace
 {
-constexpr double kNotMarched = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Index kAll = -1;
 }  // namespace
@@ -25,19 +23,10 @@ double TriangleFeatures::squaredDistance(const BoundarySurface& surface, Index t
 
 template <typename Feature>
 FeatureMarching<Feature>::FeatureMarching(const FieldTopology& topology)
-    : topology_(checked(topology)), heap_(topology.node_neighbours->size())
+    : NodalField(topology), heap_(static_cast<Index>(nodeCount()))
 {
-  const std::size_t node_count = topology_.node_neighbours->size();
-  depth_.assign(node_count, kNotMarched);
-  closest_.assign(node_count, -1);
-  offers_.assign(node_count, {kInfinity, -1});
-  wanted_in_march_.assign(node_count, 0);
-  touched_.reserve(node_count);
-  for (const Index node : topology_.surface->nodes)
-  {
-    depth_[node] = 0.0;
-    closest_[node] = *topology_.surface->node_triangles.begin(node);
-  }
+  offers_.assign(nodeCount(), {kInfinity, -1});
+  wanted_in_march_.assign(nodeCount(), 0);
   collectSeeds();
 }
 
@@ -97,14 +86,11 @@ void FeatureMarching<Feature>::marchUntil(const Points& x, const std::vector<Ind
 template <typename Feature>
 void FeatureMarching<Feature>::begin(const Points& x)
 {
-  checkPositions(x, depth_.size());
   for (const Index node : touched_)
   {
-    depth_[node] = kNotMarched;
-    closest_[node] = -1;
     offers_[node] = {kInfinity, -1};
   }
-  touched_.clear();
+  forgetMarch(x);
   heap_.clear();
 }
 
@@ -112,7 +98,7 @@ void FeatureMarching<Feature>::begin(const Points& x)
 template <typename Feature>
 Index FeatureMarching<Feature>::countMissing(const std::vector<Index>& wanted)
 {
-  checkWanted(wanted, depth_.size());
+  checkWanted(wanted);
   ++march_number_;
   Index missing = 0;
   for (const Index node : wanted)

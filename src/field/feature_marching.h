@@ -1,7 +1,7 @@
 #pragma once
 
+#include "nodal_field.h"
 #include "node_heap.h"
-#include "soft_tissue_sim/field/distance_field.h"
 
 namespace soft_tissue
 {
@@ -46,16 +46,13 @@ struct NodeFeatures
  * Source: [Marchal2004] CFFM, with triangles as features, and CPFM.
  */
 template <typename Feature>
-class FeatureMarching : public DistanceField
+class FeatureMarching : public NodalField
 {
  public:
   explicit FeatureMarching(const FieldTopology& topology);
 
   void march(const Points& x) override;
   void marchUntil(const Points& x, const std::vector<Index>& wanted) override;
-  const std::vector<double>& depth() const override { return depth_; }
-  const std::vector<Index>& closestTriangle() const override { return closest_; }
-  std::uint64_t evaluations() const override { return evaluations_; }
 
  private:
   /** The nearest feature offered to a node so far. */
@@ -72,16 +69,11 @@ class FeatureMarching : public DistanceField
   void run(const Points& x, Index missing);
   void offer(Index node, Index feature, const Points& x);
 
-  FieldTopology topology_;
   Adjacency seeds_;  ///< rows as seed_nodes_: features on a node's boundary neighbours
   std::vector<Index> seed_nodes_;  ///< inner nodes beside the boundary
-  std::vector<double> depth_;
-  std::vector<Index> closest_;
   std::vector<Offer> offers_;
-  std::vector<Index> touched_;  ///< inner nodes with an offer
   std::vector<unsigned> wanted_in_march_;
   unsigned march_number_ = 0;
-  std::uint64_t evaluations_ = 0;
   NodeHeap heap_;
 };
 

@@ -79,6 +79,23 @@ inline TetMesh ballMesh(int cells, double radius)
   });
 }
 
+/** Balls of 5 and 3 cm in one mesh, 20 cm apart. */
+inline TetMesh twoBalls()
+{
+  TetMesh two = ballMesh(6, 0.05);
+  const Index first = static_cast<Index>(two.nodes.size());
+  const TetMesh other = ballMesh(5, 0.03);
+  for (const Vec3& p : other.nodes)
+  {
+    two.nodes.push_back(p + Vec3(0.2, 0, 0));
+  }
+  for (const Tet& t : other.tets)
+  {
+    two.tets.push_back({t[0] + first, t[1] + first, t[2] + first, t[3] + first});
+  }
+  return two;
+}
+
 /** Three quarters of the unit square times a height of one half; n even. */
 inline TetMesh lMesh(int n)
 {

@@ -266,17 +266,7 @@ TEST(CffmDegenerate, FlatSliverAndDuplicateNodesStayFinite)
 
 TEST(CffmDegenerate, SeparatePartsAndLooseNodes)
 {
-  TetMesh two = test::ballMesh(6, 0.05);
-  const Index first = static_cast<Index>(two.nodes.size());
-  const TetMesh other = test::ballMesh(5, 0.03);
-  for (const Vec3& p : other.nodes)
-  {
-    two.nodes.push_back(p + Vec3(0.2, 0, 0));
-  }
-  for (const Tet& t : other.tets)
-  {
-    two.tets.push_back({t[0] + first, t[1] + first, t[2] + first, t[3] + first});
-  }
+  TetMesh two = test::twoBalls();
   const FieldBody body(two);
   EXPECT_LE(marchedErrors("two balls", body, body.mesh.nodes).largest, 0.02 * 0.05);
 
