@@ -10,7 +10,7 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 8192;  // for fewer nodes other threads cost more than they do
+constexpr Index kGrain = 512;  // nodes per parallel piece
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kMaxBacktracks = 40;
 /** Rounding errors of a potential, as a share of the sum of its terms: materials subtract terms of
@@ -60,11 +60,6 @@ double largest(const Points& points)
   }
   return size;
 }
-
-void setZero(Points& points, std::size_t size)
-{
-  points.assign(size, Vec3::Zero());
-}
 }  // namespace
 
 NewtonSolver::NewtonSolver(const Adjacency& neighbours, const std::vector<Index>& fixed,
@@ -91,8 +86,8 @@ void NewtonSolver::restoreFixed(const Points& from, Points& to) const
   }
 }
 
-/** sum += part; returns |part|^2. */
-double NewtonSolver::addUp(const Points& part, Points& sum) const
+/** sum += part, part = 0; returns |part|^2. */
+double NewtonSolver::moveInto(Points& sum, Points& part) const
 {
   return parallelSum(static_cast<Index>(part.size()), kGrain, [&](Index begin, Index end) {
     double squared = 0.0;
@@ -100,6 +95,7 @@ double NewtonSolver::addUp(const Points& part, Points& sum) const
     {
       sum[i] += part[i];
       squared += part[i].squaredNorm();
+      part[i].setZero();
     }
     return squared;
   });
@@ -109,12 +105,12 @@ NewtonSolver::State NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms
                                            Points& gradient, std::vector<double>& seconds)
 {
   State state;
-  setZero(gradient, x.size());
+  gradient.assign(x.size(), Vec3::Zero());
+  term_gradient_.resize(x.size(), Vec3::Zero());
   double scale = 0.0;
   for (std::size_t k = 0; k < terms.size(); ++k)
   {
     const ScopedTimer timer(seconds[k]);
-    setZero(term_gradient_, x.size());
     const double value = terms[k]->valueAndGradient(x, term_gradient_);
     state.value += value;
     state.magnitude += std::abs(value);
@@ -122,7 +118,7 @@ NewtonSolver::State NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms
     {
       term_gradient_[node].setZero();
     }
-    scale += std::sqrt(addUp(term_gradient_, gradient));
+    scale += std::sqrt(moveInto(gradient, term_gradient_));
   }
   state.force = std::sqrt(dot(gradient, gradient));
   state.residual = state.force / scale;

@@ -11,9 +11,11 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 256;  // rows of a matrix per parallel piece
-/** Nodes of a vector per piece: for fewer, other threads cost more than they do. */
-constexpr Index kVectorGrain = 8192;
+// Per parallel piece, some microseconds each:
+constexpr Index kGrain = 256;        // rows of a matrix
+constexpr Index kVectorGrain = 512;  // nodes of a vector
+constexpr Index kGroupGrain = 10;    // groups of nodes
+constexpr Index kCoarseGrain = 48;   // rows of the groups' matrix
 /** Answers no more exact than this are found in single precision. */
 constexpr double kSingleTolerance = 1e-3;
 
@@ -178,9 +180,14 @@ class Conjugator
     {
       return 0.0;
     }
-    kernels.gather(groups_, residual_.data(), coarse_residual_.data());
-    kernels.multiplyDense(6 * groups_.size, coarse_inverse_.data(), coarse_residual_.data(),
-                          coarse_move_.data());
+    parallelFor(groups_.size, kGroupGrain, [&](Index begin, Index end) {
+      kernels.gather(groups_, begin, end, residual_.data(), coarse_residual_.data());
+    });
+    const Index size = 6 * groups_.size;
+    parallelFor(size, kCoarseGrain, [&](Index begin, Index end) {
+      kernels.multiplyDense(size, begin, end, coarse_inverse_.data(), coarse_residual_.data(),
+                            coarse_move_.data());
+    });
     double product = 0.0;
     for (std::size_t i = 0; i < coarse_residual_.size(); ++i)
     {

@@ -151,9 +151,9 @@ void turn(Index begin, Index end, Real ratio, const Real* z, Real* p)
 }
 
 template <typename Real>
-void gather(const NodeGroups<Real>& groups, const Real* r, Real* c)
+void gather(const NodeGroups<Real>& groups, Index begin, Index end, const Real* r, Real* c)
 {
-  for (Index g = 0; g < groups.size; ++g)
+  for (Index g = begin; g < end; ++g)
   {
     Real sum[6] = {};
     for (Index i = groups.offsets[g]; i < groups.offsets[g + 1]; ++i)
@@ -173,13 +173,13 @@ void gather(const NodeGroups<Real>& groups, const Real* r, Real* c)
 
 /** Adds up columns, so that every number is the same sum in the same order whatever the width. */
 template <typename Real>
-void multiplyDense(Index size, const Real* b, const Real* c, Real* y)
+void multiplyDense(Index size, Index begin, Index end, const Real* b, const Real* c, Real* y)
 {
   using Pack = typename Wide<Real>::Pack;
   constexpr Index kSize = sizeof(Pack) / sizeof(Real);
   constexpr Index kPacks = 6;
-  Index row = 0;
-  for (; row + kPacks * kSize <= size; row += kPacks * kSize)
+  Index row = begin;
+  for (; row + kPacks * kSize <= end; row += kPacks * kSize)
   {
     Pack sum[kPacks] = {};
     for (Index k = 0; k < size; ++k)
@@ -192,7 +192,7 @@ void multiplyDense(Index size, const Real* b, const Real* c, Real* y)
     }
     std::memcpy(y + row, sum, sizeof(sum));
   }
-  for (; row < size; ++row)
+  for (; row < end; ++row)
   {
     Real sum = 0;
     for (Index k = 0; k < size; ++k)

@@ -12,7 +12,7 @@ namespace
 constexpr Index kNodesEach = 64;
 constexpr Index kMostGroups = 40;
 /** Share of its group's size a node may move before rigid motions are taken anew. */
-constexpr double kOutdated = 0.25;
+constexpr double kOutdated = 0.5;
 /** Share of the largest diagonal number added to all: nodes in a line have no moment of inertia. */
 constexpr double kShift = 1e-6;
 

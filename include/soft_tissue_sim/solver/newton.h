@@ -92,7 +92,7 @@ class NewtonSolver
   };
   State evaluate(const std::vector<EnergyTerm*>& terms, const Points& x, Points& gradient,
                  std::vector<double>& seconds);
-  double addUp(const Points& part, Points& sum) const;
+  double moveInto(Points& sum, Points& part) const;
   void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
                 NewtonReport& report, std::vector<double>& seconds);
   LinearReport solve(double accuracy, NewtonReport& report);
@@ -120,7 +120,8 @@ class NewtonSolver
   double budget_s_ = 0.0;
   double evaluation_s_ = 0.0, assembly_s_ = 0.0, linear_iteration_s_ = 0.0;
   double directing_s_ = 0.0;  ///< direction and step, without second derivatives
-  Points gradient_, term_gradient_, trial_gradient_, descent_, direction_, trial_;
+  Points gradient_, trial_gradient_, descent_, direction_, trial_;
+  Points term_gradient_;  ///< zero outside evaluate()
 };
 
 }  // namespace soft_tissue

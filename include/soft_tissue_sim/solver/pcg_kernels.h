@@ -54,10 +54,10 @@ struct PcgKernels
                      Real* r, Real* q);
   /** p = z + ratio p. */
   void (*turn)(Index begin, Index end, Real ratio, const Real* z, Real* p);
-  /** c = P^T r, 6 a group. */
-  void (*gather)(const NodeGroups<Real>& groups, const Real* r, Real* c);
-  /** y = B c for a dense symmetric B of this size. */
-  void (*multiplyDense)(Index size, const Real* b, const Real* c, Real* y);
+  /** c = P^T r of groups begin ... end - 1, 6 a group. */
+  void (*gather)(const NodeGroups<Real>& groups, Index begin, Index end, const Real* r, Real* c);
+  /** Rows begin ... end - 1 of y = B c for a dense symmetric B of this size. */
+  void (*multiplyDense)(Index size, Index begin, Index end, const Real* b, const Real* c, Real* y);
   /** z += P y; y has 6 zeros more for nodes in no group. */
   void (*spread)(const NodeGroups<Real>& groups, Index begin, Index end, const Real* y, Real* z);
 };

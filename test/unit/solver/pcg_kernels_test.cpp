@@ -138,8 +138,10 @@ std::vector<double> runPasses(InstructionSet set)
   const std::vector<Real> arms = numbers(kNodes, 3, 6), dense = numbers(18 * 18 / 3 + 1, 3, 7);
   const NodeGroups<Real> groups = {3, offsets.data(), members.data(), group.data(), arms.data()};
   std::vector<Real> gathered(18), moved(24, Real(0)), spread = p;
-  kernels.gather(groups, r.data(), gathered.data());
-  kernels.multiplyDense(18, dense.data(), gathered.data(), moved.data());
+  kernels.gather(groups, 0, 2, r.data(), gathered.data());
+  kernels.gather(groups, 2, 3, r.data(), gathered.data());
+  kernels.multiplyDense(18, 0, 7, dense.data(), gathered.data(), moved.data());
+  kernels.multiplyDense(18, 7, 18, dense.data(), gathered.data(), moved.data());
   kernels.spread(groups, 0, kCut, moved.data(), spread.data());
   kernels.spread(groups, kCut, kNodes, moved.data(), spread.data());
   for (const std::vector<Real>* vector : {&d, &r, &q, &turned, &spread})
