@@ -2,12 +2,14 @@
 
 #include "exact_marching.h"
 #include "feature_marching.h"
+#include "grid_marching.h"
 #include "soft_tissue_sim/base/error.h"
 
 namespace soft_tissue
 {
 std::unique_ptr<DistanceField> makeDistanceField(const std::string& method,
-                                                 const FieldTopology& topology)
+                                                 const FieldTopology& topology,
+                                                 const FieldOptions& options)
 {
   if (method == "cpfm")
   {
@@ -21,7 +23,12 @@ std::unique_ptr<DistanceField> makeDistanceField(const std::string& method,
   {
     return std::make_unique<ExactMarching>(topology);
   }
-  throw Error("field method = \"" + method + "\", must be one of: cpfm, cffm, exact_marching");
+  if (method == "grid")
+  {
+    return std::make_unique<GridMarching>(topology, options.grid_points);
+  }
+  throw Error("field method = \"" + method +
+              "\", must be one of: cpfm, cffm, exact_marching, grid");
 }
 
 }  // namespace soft_tissue

@@ -85,9 +85,15 @@ const std::vector<GridBand::Value>& GridBand::collect(const GridRegion& region,
   {
     const Triangle& triangle = surface.triangles[t];
     Box3 box;
+    bool finite = true;
     for (const Index node : triangle)
     {
       box.extend(x[node]);
+      finite = finite && x[node].allFinite();
+    }
+    if (!finite)  // nothing is near to it
+    {
+      continue;
     }
     region.common(GridRegion::around(grid_, box, cells_)).forPoints(grid_, [&](Index point) {
       offer(point, static_cast<Index>(t), triangle, x);

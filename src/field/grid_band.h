@@ -58,6 +58,9 @@ class GridBand
   /** @param cells  how wide the band is, on each side */
   GridBand(const GridSpec& grid, int cells);
 
+  /** Takes a grid of the same counts of points. */
+  void place(const GridSpec& grid) { grid_ = grid; }
+
   /** The band within a region. A point inside the body and farther from the surface than the band
    * is wide may be nearer to a triangle that wasn't tried: it isn't in. */
   const std::vector<Value>& collect(const GridRegion& region, const BoundarySurface& surface,

@@ -6,6 +6,7 @@
 
 #include "grid_band.h"
 #include "node_heap.h"
+#include "soft_tissue_sim/base/error.h"
 #include "upwind.h"
 
 namespace soft_tissue
@@ -91,6 +92,16 @@ class GridField::Marching
       return true;
     });
     return least;
+  }
+
+  void place(const GridSpec& grid)
+  {
+    if (grid.count != grid_.count)
+    {
+      throw Error("grid field: a grid that is placed anew keeps its counts of points");
+    }
+    grid_ = grid.checked();
+    band_.place(grid);
   }
 
   const GridSpec& grid() const { return grid_; }
@@ -356,6 +367,11 @@ GridUpdate GridField::update(const std::vector<Box3>& boxes, const BoundarySurfa
                              const Points& x)
 {
   return marching_->update(boxes, surface, x);
+}
+
+void GridField::place(const GridSpec& grid)
+{
+  marching_->place(grid);
 }
 
 const GridSpec& GridField::grid() const

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "soft_tissue_sim/scene/tissue_field.h"
+
 namespace soft_tissue_sim
 {
 TissueDepths::TissueDepths(const SceneInfo& info, const soft_tissue::SceneConfig& config)
@@ -17,9 +19,8 @@ TissueDepths::TissueDepths(const SceneInfo& info, const soft_tissue::SceneConfig
     {
       const auto node_count = static_cast<soft_tissue::Index>(tissue.rest.nodes.size());
       view.node_neighbours = soft_tissue::nodeNeighbours(node_count, tissue.rest.tets);
-      view.field = soft_tissue::makeDistanceField(
-          config.tissues[i].field.method,
-          {&tissue.surface, &view.node_neighbours});
+      view.field = soft_tissue::makeDistanceField(config.tissues[i].field,
+                                                  {&tissue.surface, &view.node_neighbours});
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "bodies.h"
 #include "scene_impl.h"
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/scene/tissue_field.h"
 
 namespace soft_tissue
 {
@@ -189,8 +190,7 @@ void Scene::Impl::addContact(std::size_t index)
   body.first_node = tissue.first_node;
   body.node_count = tissue.node_count;
   contact.term = std::make_unique<ToolContact>(
-      body, shape, makeDistanceField(tissue_config.field.method, fieldTopology(contact.tissue)),
-      options);
+      body, shape, makeDistanceField(tissue_config.field, fieldTopology(contact.tissue)), options);
   // Where the closest feature is searched for, features of any age start the search as well.
   const bool lazy_depths = options.lazy_field && !options.closest_feature;
   contact.refresh = lazy_depths || tissue_config.field.refresh == FieldRefresh::full;

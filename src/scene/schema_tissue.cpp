@@ -1,4 +1,5 @@
 #include "schema_sections.h"
+#include "soft_tissue_sim/field/distance_field.h"
 
 namespace soft_tissue
 {
@@ -54,12 +55,17 @@ const Section<FieldConfig>& fieldSection()
   static const Section<FieldConfig> section =
       Section<FieldConfig>("field", "The distance field inside a tissue, which contact reads.")
           .optional("method", &FieldConfig::method,
-                    choice<std::string>(
-                        {{"exact_marching", "exact_marching"}, {"cffm", "cffm"}, {"cpfm", "cpfm"}},
-                        {"grid"}),
+                    choice<std::string>({{"exact_marching", "exact_marching"},
+                                         {"cffm", "cffm"},
+                                         {"cpfm", "cpfm"},
+                                         {"grid", "grid"}}),
                     "How nodal depths are computed. exact_marching: exactly; cffm, cpfm: marching "
-                    "closest "
-                    "features or points, which may come out too large.")
+                    "closest features or points, which may come out too large; grid: marching a "
+                    "grid around the tissue.")
+          .optional("grid_points", &FieldConfig::grid_points,
+                    maybe(integer(FieldOptions::kLeastGridPoints, 400),
+                          std::to_string(FieldOptions().grid_points), false),
+                    "Points of the grid along the tissue's longest side; for method grid alone.")
           .optional("depth", &FieldConfig::depth,
                     choice<DepthKind>({{"interpolated", DepthKind::interpolated},
                                        {"closest_feature", DepthKind::closest_feature}}),
@@ -72,7 +78,13 @@ const Section<FieldConfig>& fieldSection()
                                     {"full", FieldRefresh::full}}),
               "carried: depths of the rest state; lazy: marched as far as contacts read, each "
               "step where depths are interpolated, else once; full: marched each step "
-              "everywhere.");
+              "everywhere.")
+          .finally([](const Item& item, FieldConfig& field) {
+            if (field.grid_points && field.method != "grid")
+            {
+              item.at("grid_points").rejectValue("is for method grid, which is not asked for");
+            }
+          });
   return section;
 }
 

@@ -7,6 +7,7 @@
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/scene/scene.h"
+#include "soft_tissue_sim/scene/tissue_field.h"
 #include "support/small_scenes.h"
 
 namespace soft_tissue::test
@@ -104,8 +105,7 @@ class ContactTwin
     options.stiffness_pa_per_m = config.stiffness_pa_per_m.value();
     contact_ = std::make_unique<ToolContact>(
         TissueBody{&info_.rest.tets, &info_.surface, 0, count}, tool,
-        makeDistanceField(scene.config().tissues[0].field.method,
-                          {&info_.surface, &node_neighbours_}),
+        makeDistanceField(scene.config().tissues[0].field, {&info_.surface, &node_neighbours_}),
         options);
   }
 

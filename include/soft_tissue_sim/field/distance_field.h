@@ -17,8 +17,8 @@ struct FieldTopology
   const Adjacency* node_neighbours = nullptr;
 };
 
-/** Depth inside a body on its nodes, by marching over the mesh itself: tets, or triangles in a
- * plane (see extractPlanarBoundary). */
+/** Depth inside a body on its nodes: of tets, or of triangles in a plane (see
+ * extractPlanarBoundary). */
 class DistanceField
 {
  public:
@@ -35,11 +35,20 @@ class DistanceField
   virtual const std::vector<double>& depth() const = 0;
 
   /** Per node the boundary triangle found nearest to it (index into surface->triangles), -1 where
-   * not marched. */
+   * not marched or not told. */
   virtual const std::vector<Index>& closestTriangle() const = 0;
 
   /** Distances from a point to a boundary feature worked out so far, all marches together. */
   virtual std::uint64_t evaluations() const = 0;
+};
+
+/** What single methods need beside the topology. */
+struct FieldOptions
+{
+  static constexpr int kLeastGridPoints = 8;
+  /** grid: points along the longest side of the body as it is first marched; cells are cubes then,
+   * and stretched with the body later. */
+  int grid_points = 40;
 };
 
 /**
@@ -50,9 +59,13 @@ class DistanceField
  * - "cffm": the same with boundary triangles: closest-feature fast marching. At or above the true
  *   depth.
  * - "exact_marching": the true depth.
- * @throws Error naming the known methods, or if parts of the topology are missing or don't match
+ * - "grid": a grid's depth, marched to second order and read at the nodes by slopes; it tells no
+ *   closest triangles. See GridField.
+ * @throws Error naming the known methods, or if parts of the topology are missing or don't match,
+ *         or for options out of range
  */
 std::unique_ptr<DistanceField> makeDistanceField(const std::string& method,
-                                                 const FieldTopology& topology);
+                                                 const FieldTopology& topology,
+                                                 const FieldOptions& options = {});
 
 }  // namespace soft_tissue

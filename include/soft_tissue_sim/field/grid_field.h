@@ -77,6 +77,9 @@ class GridField
   GridUpdate update(const std::vector<Box3>& boxes, const BoundarySurface& surface,
                     const Points& x);
 
+  /** Moves and stretches the grid; depths of before mean nothing until it is marched.
+   * @throws Error for a grid without extent, or with other counts of points */
+  void place(const GridSpec& grid);
   const GridSpec& grid() const;
 
   /** By grid point, m: > 0 inside, <= 0 outside within a cell or two of the surface, NaN farther

@@ -70,6 +70,7 @@ enum class FieldRefresh
 struct FieldConfig
 {
   std::string method = "exact_marching";
+  std::optional<int> grid_points;  ///< method grid alone
   DepthKind depth = DepthKind::closest_feature;
   FieldRefresh refresh = FieldRefresh::lazy;
 };

@@ -74,5 +74,22 @@ TEST(FieldRefresh, OnlyFullMarchesWhereNothingTouches)
   }
 }
 
+TEST(FieldRefresh, AGridsDepthsServeAContactAsExactOnesDo)
+{
+  SceneConfig config = lobeUnderBall(FieldRefresh::full);
+  Scene exact(config);
+  config.tissues[0].field.method = "grid";
+  config.tissues[0].field.grid_points = 60;
+  Scene grid(config);
+  const Points exactly = pressed(exact, 1), on_grid = pressed(grid, 1);
+  EXPECT_NE(exactly, on_grid);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < exactly.size(); ++i)
+  {
+    largest = std::max(largest, (exactly[i] - on_grid[i]).norm());
+  }
+  EXPECT_LT(largest, 0.03 * 0.004) << "of a press of 4 mm";
+}
+
 }  // namespace
 }  // namespace soft_tissue
