@@ -3,6 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include "soft_tissue_sim/geometry/box3.h"
+
 namespace soft_tissue::studies
 {
 namespace
@@ -70,7 +72,120 @@ FieldBody lattice(const std::string& name, int columns, int rows,
   }
   return bodyOfTriangles(name, x, triangles);
 }
+
+/** A point of the half plane y = 0, x >= 0 that a surface is turned out of. */
+using Profile = std::function<Vec3(double)>;
+
+/** Points in the box around a surface, evenly, that are inside by its winding number. */
+Points samplesInside(const Points& x, const std::vector<Triangle>& triangles)
+{
+  constexpr int kAcross = 16;
+  Box3 box;
+  for (const Vec3& p : x)
+  {
+    box.extend(p);
+  }
+  Points samples;
+  for (int i = 0; i < kAcross * kAcross * kAcross; ++i)
+  {
+    const Vec3 place(i % kAcross + 0.5, i / kAcross % kAcross + 0.5, i / kAcross / kAcross + 0.5);
+    const Vec3 p = box.min + (box.max - box.min).cwiseProduct(place) / kAcross;
+    double angle = 0.0;  // the solid angle of all triangles
+    for (const Triangle& t : triangles)
+    {
+      const Vec3 a = x[t[0]] - p, b = x[t[1]] - p, c = x[t[2]] - p;
+      angle +=
+          2.0 * std::atan2(a.dot(b.cross(c)), a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                                                  b.dot(c) * a.norm() + c.dot(a) * b.norm());
+    }
+    if (angle > 2.0 * M_PI)
+    {
+      samples.push_back(p);
+    }
+  }
+  return samples;
+}
+
+/** Turns a profile, given for 0 ... 1, about the z axis: from pole to pole, or once around. */
+FieldBody turned(const std::string& name, const Profile& profile, bool poles, int around, int rows)
+{
+  FieldBody body;
+  body.name = name;
+  const int rings = poles ? rows - 1 : rows;
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    const Vec3 p = profile((ring + (poles ? 1.0 : 0.0)) / rows);
+    for (int k = 0; k < around; ++k)
+    {
+      const double angle = 2.0 * M_PI * k / around;
+      body.x.emplace_back(p.x() * std::cos(angle), p.x() * std::sin(angle), p.z());
+    }
+  }
+  std::vector<Triangle> triangles;
+  const auto node = [&](int ring, int k) { return ring % rings * around + k % around; };
+  for (int ring = 0; ring + (poles ? 1 : 0) < rings; ++ring)
+  {
+    for (int k = 0; k < around; ++k)
+    {
+      triangles.push_back({node(ring, k), node(ring + 1, k), node(ring + 1, k + 1)});
+      triangles.push_back({node(ring, k), node(ring + 1, k + 1), node(ring, k + 1)});
+    }
+  }
+  for (const int end : {0, 1})
+  {
+    const Index pole = static_cast<Index>(body.x.size());
+    for (int k = 0; poles && k < around; ++k)
+    {
+      const Index a = node(end * (rings - 1), k), b = node(end * (rings - 1), k + 1);
+      triangles.push_back(end == 0 ? Triangle{pole, a, b} : Triangle{pole, b, a});
+    }
+    if (poles)
+    {
+      body.x.push_back(profile(end));
+    }
+  }
+  body.elements = triangles.size();
+  // The boundary of a cone over a closed surface, whatever its shape, is that surface.
+  const Index tip = static_cast<Index>(body.x.size());
+  std::vector<Tet> cone;
+  for (const Triangle& t : triangles)
+  {
+    cone.push_back({tip, t[0], t[1], t[2]});
+  }
+  const Points samples = samplesInside(body.x, triangles);
+  body.x.insert(body.x.end(), samples.begin(), samples.end());
+  body.surface = extractBoundary(static_cast<Index>(body.x.size()), cone);
+  return body;
+}
 }  // namespace
+
+FieldBody sphereOfTriangles()
+{
+  return turned(
+      "sphere", [](double t) { return Vec3(std::sin(M_PI * t), 0.0, std::cos(M_PI * t)); }, true,
+      27, 19);
+}
+
+FieldBody torusOfTriangles()
+{
+  return turned(
+      "torus of triangles",
+      [](double t) {
+        return Vec3(1.0 + 0.4 * std::sin(2.0 * M_PI * t), 0.0, 0.4 * std::cos(2.0 * M_PI * t));
+      },
+      false, 64, 16);
+}
+
+FieldBody appleOfTriangles()
+{
+  return turned(
+      "apple",
+      [](double t) {
+        const double radius = 0.4 + 0.6 * std::sin(M_PI * t);
+        return Vec3(radius * std::sin(M_PI * t), 0.0, radius * std::cos(M_PI * t));
+      },
+      true, 16, 13);
+}
 
 FieldBody bodyOfTets(const std::string& name, const TetMesh& mesh)
 {
@@ -83,36 +198,39 @@ FieldBody bodyOfTets(const std::string& name, const TetMesh& mesh)
   return body;
 }
 
-FieldBody disc(int rings)
+FieldBody disc()
 {
+  constexpr int kRings = 12;
+  constexpr double kNodesPerRing = 485.0 / 78.0;  // times 1 ... 12, and the middle: 486
   Points x = {Vec3::Zero()};
   std::vector<Triangle> triangles;
   Index inner = 0;
-  for (int ring = 1; ring <= rings; ++ring)
+  int inner_count = 0;
+  for (int ring = 1; ring <= kRings; ++ring)
   {
     const Index outer = static_cast<Index>(x.size());
-    const int outer_count = 6 * ring, inner_count = 6 * (ring - 1);
+    const int outer_count = static_cast<int>(std::lround(kNodesPerRing * ring));
     for (int k = 0; k < outer_count; ++k)
     {
       const double angle = 2.0 * M_PI * k / outer_count;
-      x.emplace_back(std::cos(angle) * ring / rings, std::sin(angle) * ring / rings, 0.0);
+      x.emplace_back(std::cos(angle) * ring / kRings, std::sin(angle) * ring / kRings, 0.0);
     }
-    for (int sector = 0; sector < 6; ++sector)
+    // Once around both rings, on the one that is behind.
+    for (int i = 0, j = 0; i < inner_count || j < outer_count;)
     {
-      const auto outerNode = [&](int k) { return outer + (sector * ring + k) % outer_count; };
-      const auto innerNode = [&](int k) {
-        return ring == 1 ? 0 : inner + (sector * (ring - 1) + k) % inner_count;
-      };
-      for (int k = 0; k < ring; ++k)
+      const Index a = inner + (inner_count > 0 ? i % inner_count : 0);
+      const Index b = outer + j % outer_count;
+      if (i == inner_count || (j < outer_count && (j + 1) * inner_count <= (i + 1) * outer_count))
       {
-        triangles.push_back({innerNode(k), outerNode(k), outerNode(k + 1)});
-        if (k + 1 < ring)
-        {
-          triangles.push_back({innerNode(k), outerNode(k + 1), innerNode(k + 1)});
-        }
+        triangles.push_back({a, b, outer + ++j % outer_count});
+      }
+      else
+      {
+        triangles.push_back({a, b, inner + ++i % inner_count});
       }
     }
     inner = outer;
+    inner_count = outer_count;
   }
   return bodyOfTriangles("disc", x, triangles);
 }

@@ -9,6 +9,7 @@
 
 #include "closest_point_tree.h"
 #include "deformed_field_study.h"
+#include "distance_volume.h"
 #include "field_bodies.h"
 #include "field_table.h"
 #include "soft_tissue_sim/field/grid_field.h"
@@ -127,7 +128,8 @@ void studyGrids(Table& table, const FieldBody& body, const std::vector<int>& res
   }
 }
 
-void studyBody(Table& table, const FieldBody& body, int repeats)
+void studyBody(Table& table, const FieldBody& body, int repeats,
+               const std::vector<int>& volume_resolutions)
 {
   const std::vector<double> truth = trueDepths(body);
   for (const char* method : {"cpfm", "cffm", "exact_marching"})
@@ -158,6 +160,23 @@ void studyBody(Table& table, const FieldBody& body, int repeats)
     });
     table.add(body, {"cgal tree"}, ms, depths, truth, 0);
   }
+  if (haveOpenVdb() && body.dimension == 3)
+  {
+    Box3 box;
+    for (const Vec3& p : body.x)
+    {
+      box.extend(p);
+    }
+    for (const int resolution : volume_resolutions)
+    {
+      std::vector<double> depths;
+      const double voxel = (box.max - box.min).maxCoeff() / resolution;
+      const double ms = timed(std::min(repeats, 3), [&] {
+        depths = openVdbDepths(body.x, body.surface.triangles, body.x, voxel);
+      });
+      table.add(body, {"openvdb", 0, resolution}, ms, depths, truth, 0);
+    }
+  }
 }
 }  // namespace
 
@@ -165,16 +184,19 @@ void studyFields(const std::string& folder, bool quick)
 {
   Table table(folder);
   const int repeats = quick ? 1 : 7;
-  for (const FieldBody& body : {disc(12), rectangle(40, 25), cutRectangle(40, 25)})
+  const std::vector<int> volumes =
+      quick ? std::vector<int>{25} : std::vector<int>{25, 50, 100, 200};
+  for (const FieldBody& body : {disc(), rectangle(40, 25), cutRectangle(40, 25)})
   {
-    studyBody(table, body, repeats);
+    studyBody(table, body, repeats, {});
     studyGrids(table, body, {20, 100}, repeats);
   }
   for (const std::size_t tets : {5000, 20000, 100000, 300000, 1000000})
   {
     if (!quick || tets <= 20000)
     {
-      studyBody(table, bodyOfTets("ball", makeBall(1.0, tets)), tets > 500000 ? 3 : repeats);
+      studyBody(table, bodyOfTets("ball", makeBall(1.0, tets)), tets > 500000 ? 3 : repeats,
+                volumes);
     }
   }
   const std::vector<FieldBody> bodies = {
@@ -182,20 +204,21 @@ void studyFields(const std::string& folder, bool quick)
       bodyOfTets("lobe", makeLobe(quick ? 5000 : 100000))};
   for (const FieldBody& body : bodies)
   {
-    studyBody(table, body, repeats);
+    studyBody(table, body, repeats, volumes);
   }
-  // The grids of the first paper's first table, on a ball of as many triangles as its sphere has.
-  const FieldBody ball = bodyOfTets("coarse ball", makeBall(1.0, 5500));
-  studyGrids(table, ball,
+  // The first paper's two tables.
+  studyGrids(table, sphereOfTriangles(),
              quick ? std::vector<int>{20, 40} : std::vector<int>{20, 30, 40, 50, 55, 60}, repeats);
-  if (!quick)
-  {
-    studyGrids(table, bodyOfTets("coarse torus", makeTorus(1.0, 0.4, 9000)), {50}, repeats);
-  }
+  studyGrids(table, torusOfTriangles(), {50}, repeats);
+  studyGrids(table, appleOfTriangles(), {50}, repeats);
   studyDeformedFields(table, quick);
   if (!haveCgal())
   {
     std::printf("built without CGAL: no \"cgal tree\" to compare with (-DSOFT_TISSUE_BENCH=ON)\n");
+  }
+  if (!haveOpenVdb())
+  {
+    std::printf("built without OpenVDB: no \"openvdb\" to compare with (-DSOFT_TISSUE_BENCH=ON)\n");
   }
 }
 

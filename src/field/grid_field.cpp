@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "grid_band.h"
+#include "grid_reader.h"
 #include "node_heap.h"
 #include "soft_tissue_sim/base/error.h"
 #include "upwind.h"
@@ -67,33 +68,6 @@ class GridField::Marching
     return report;
   }
 
-  double interpolate(const Vec3& p) const
-  {
-    double sum = 0.0;
-    bool inside = false;
-    forCorners(p, [&](Index point, double weight) {
-      inside = true;
-      sum += weight > 0.0 ? weight * depth_[point] : 0.0;
-      return true;
-    });
-    return inside ? sum : kNone;
-  }
-
-  double extrapolate(const Vec3& p) const
-  {
-    double least = kNone;
-    forCorners(p, [&](Index point, double /*weight*/) {
-      const Vec3 way = p - grid_.point(point);
-      const Vec3 slope = slopeAt(point);
-      const double steepest = slope.norm();
-      const double there =
-          depth_[point] + (steepest > 0.0 ? slope.dot(way) / steepest : way.norm());
-      least = there < least || std::isnan(least) ? there : least;
-      return true;
-    });
-    return least;
-  }
-
   void place(const GridSpec& grid)
   {
     if (grid.count != grid_.count)
@@ -109,63 +83,6 @@ class GridField::Marching
   std::uint64_t evaluations() const { return evaluations_ + band_.evaluations(); }
 
  private:
-  /** Calls visit(point, weight) for the corners of p's cell, until it returns false. */
-  template <typename Visit>
-  void forCorners(const Vec3& p, const Visit& visit) const
-  {
-    Index corner = 0;
-    double part[3] = {};
-    for (int axis = 0; axis < dimension_; ++axis)
-    {
-      const double place = (p[axis] - grid_.origin[axis]) / grid_.spacing[axis];
-      if (!(place >= 0.0 && place <= grid_.count[axis] - 1))
-      {
-        return;
-      }
-      const int cell = std::min(static_cast<int>(place), grid_.count[axis] - 2);
-      part[axis] = place - cell;
-      corner += cell * stride_[axis];
-    }
-    bool more = true;
-    for (int k = 0; k < (1 << dimension_) && more; ++k)
-    {
-      double weight = 1.0;
-      Index point = corner;
-      for (int axis = 0; axis < dimension_; ++axis)
-      {
-        const bool upper = (k >> axis & 1) != 0;
-        weight *= upper ? part[axis] : 1.0 - part[axis];
-        point += upper ? stride_[axis] : 0;
-      }
-      more = visit(point, weight);
-    }
-  }
-
-  /** Differences to the lower neighbour along each axis: the way depth grows. */
-  Vec3 slopeAt(Index point) const
-  {
-    Vec3 slope = Vec3::Zero();
-    for (int axis = 0; axis < dimension_; ++axis)
-    {
-      const Index place = point / stride_[axis] % grid_.count[axis];
-      double fall = 0.0;
-      for (const int way : {-1, 1})
-      {
-        const Index other = place + way;
-        if (other >= 0 && other < grid_.count[axis])
-        {
-          const double here = depth_[point] - depth_[point + way * stride_[axis]];
-          if (here > fall)
-          {
-            fall = here;
-            slope[axis] = -way * here / grid_.spacing[axis];
-          }
-        }
-      }
-    }
-    return slope;
-  }
-
   /** Marches within region_, whose points are far, from the surface and from known points beside
    * it. */
   void marchRegion(const BoundarySurface& surface, const Points& x)
@@ -201,6 +118,8 @@ class GridField::Marching
   /** Marches region_ anew and fits it to what is around. @return how many points it has */
   Index renewRegion(const BoundarySurface& surface, const Points& x, GridUpdate& report)
   {
+    implied_.clear();
+    forBorder([&](Index /*inside*/, Index outside) { implied_.push_back(implied(outside)); });
     old_.clear();
     region_.forPoints(grid_, [&](Index point) {
       old_.push_back(depth_[point]);
@@ -209,12 +128,10 @@ class GridField::Marching
     });
     marchRegion(surface, x);
     double jump = 0.0;
-    forBorder([&](Index inside, Index outside) {
-      if (state_[inside] == State::known && state_[outside] == State::known &&
-          depth_[outside] > 0.0)
-      {
-        jump = std::max(jump, std::abs(upwind(outside) - depth_[outside]));
-      }
+    std::size_t pair = 0;
+    forBorder([&](Index /*inside*/, Index outside) {
+      const double change = std::abs(implied(outside) - implied_[pair++]);
+      jump = change > jump ? change : jump;
     });
     report.largest_jump = std::max(report.largest_jump, jump);
     const double cell = grid_.spacing.head(dimension_).minCoeff();
@@ -268,6 +185,12 @@ class GridField::Marching
         }
       }
     }
+  }
+
+  /** What the neighbours make of a point's depth; NaN for one that has none. */
+  double implied(Index point) const
+  {
+    return state_[point] == State::known && depth_[point] > 0.0 ? upwind(point) : kNone;
   }
 
   void relaxNeighbours(Index point)
@@ -344,8 +267,9 @@ class GridField::Marching
   std::vector<double> depth_;
   std::vector<State> state_;
   GridBand band_;
-  GridRegion region_;        ///< that is being marched
-  std::vector<double> old_;  ///< what its points had before
+  GridRegion region_;  ///< that is being marched
+  // Before its points were marched anew: what they had, and what they made of those beside them.
+  std::vector<double> old_, implied_;
   NodeHeap heap_;
   std::uint64_t evaluations_ = 0;
 };
@@ -386,12 +310,12 @@ const std::vector<double>& GridField::depth() const
 
 double GridField::interpolate(const Vec3& p) const
 {
-  return marching_->interpolate(p);
+  return GridReader(grid(), depth()).interpolate(p);
 }
 
 double GridField::extrapolate(const Vec3& p) const
 {
-  return marching_->extrapolate(p);
+  return GridReader(grid(), depth()).extrapolate(p);
 }
 
 std::uint64_t GridField::evaluations() const

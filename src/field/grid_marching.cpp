@@ -114,6 +114,24 @@ GridSpec GridMarching::placed(const Points& x) const
   return GridSpec::around(box, count);
 }
 
+void GridMarching::fitTree(const Points& x)
+{
+  if (tree_.empty())
+  {
+    Points finite = x;  // to build it needs finite triangles, not to search them
+    for (Vec3& p : finite)
+    {
+      p = p.allFinite() ? p : Vec3(Vec3::Zero());
+    }
+    tree_.build(topology_.surface->triangles, finite);
+  }
+  if (!tree_fits_)
+  {
+    tree_.refit(x);
+    tree_fits_ = true;
+  }
+}
+
 void GridMarching::read(Index node, const Points& x)
 {
   const bool inside =
@@ -126,17 +144,13 @@ void GridMarching::read(Index node, const Points& x)
   double depth = grid_->extrapolate(x[node]);
   if (!(depth > 0.0))
   {
-    if (tree_.empty())
-    {
-      tree_.build(topology_.surface->triangles, x);
-    }
-    else if (!tree_fits_)
-    {
-      tree_.refit(x);
-    }
-    tree_fits_ = true;
+    fitTree(x);
     const TriangleTree::Nearest nearest = tree_.nearest(x[node], x);
     evaluations_ += nearest.evaluations;
+    if (nearest.triangle < 0)
+    {
+      return;
+    }
     depth = std::sqrt(nearest.point.squared_distance);
   }
   depth_[node] = depth;

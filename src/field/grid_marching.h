@@ -27,13 +27,14 @@ class GridMarching : public NodalField
  private:
   void marchGrid(const Points& x);
   GridSpec placed(const Points& x) const;
+  void fitTree(const Points& x);
   void read(Index node, const Points& x);
 
   int points_;
   bool planar_ = true;
   std::optional<GridField> grid_;
-  TriangleTree tree_;
-  bool tree_fits_ = false;
+  TriangleTree tree_;       ///< for nodes the grid shows no depth for
+  bool tree_fits_ = false;  ///< to the positions being marched
 };
 
 }  // namespace soft_tissue

@@ -272,6 +272,26 @@ TEST(GridUpdate, OfWhatDidNotMoveChangesNothing)
   EXPECT_LT(difference(field, before), 0.1 * ball.cell);
 }
 
+TEST(GridUpdate, OfTheFirstOrderChangesOnlyRoundingWhereNothingMoved)
+{
+  const FieldBody arm(test::lMesh(12));  // not convex
+  const Points& x = arm.mesh.nodes;
+  GridField field(GridSpec::around(boundsOf(x), {31, 37, 20}), GridOrder::first);
+  field.march(arm.surface, x);
+  const std::vector<double> before = field.depth();
+  Box3 box;
+  box.extend(Vec3::Constant(-1.0));
+  box.extend(0.5 * (boundsOf(x).min + boundsOf(x).max));
+  const GridUpdate report = field.update({box}, arm.surface, x);
+  EXPECT_LT(report.largest_jump, 1e-12);
+  EXPECT_FALSE(report.blended || report.whole);
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    EXPECT_FALSE(std::abs(field.depth()[i] - before[i]) > 1e-12);
+    EXPECT_EQ(std::isnan(field.depth()[i]), std::isnan(before[i]));
+  }
+}
+
 TEST(GridUpdate, OfADentAgreesWithAMarchOfEverything)
 {
   const GriddedBall ball;
