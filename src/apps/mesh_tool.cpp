@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cad/cad_surface.h"
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/mesh/check.h"
 #include "soft_tissue_sim/mesh/generate.h"
@@ -195,6 +196,30 @@ void fill(const Arguments& arguments)
   save(arguments.names[1], filled);
 }
 
+void tessellate(const Arguments& arguments)
+{
+  const std::string& path = arguments.names[0];
+  if (arguments.options.count("--chord") == 0)
+  {
+    throw UsageError("--chord METRES is needed: how far triangles may be from the surface");
+  }
+  const double chord = arguments.numbers("--chord", {0.0})[0];
+  LoadedMesh made;
+  const CadSurface cad = loadCadSurface(path, chord);
+  made.surface = cad.mesh;
+  print(path + " (" + cad.format + ", " + std::to_string(cad.faces) + " faces)\n");
+  char line[200];
+  std::snprintf(
+      line, sizeof(line),
+      "  triangles within %.3g m of the surface, looked for at %zu points; asked: %.3g m\n",
+      cad.deviation_m, cad.samples, chord);
+  print(line);
+  print(cad.sewn ? "done: joined faces of no solid at their edges, 0.1 chord apart at most\n" : "");
+  print(cad.turned ? "done: turned the surface, which was inside out\n" : "");
+  print(toText(checkSurface(made.surface)));
+  save(arguments.names[1], made);
+}
+
 struct Command
 {
   const char* name;
@@ -239,6 +264,13 @@ const std::vector<Command> kCommands = {
      "  Fills a closed surface with tets by TetGen or Gmsh, which must be installed. With an edge\n"
      "  length Gmsh builds the surface anew, finer or coarser; TetGen only bounds the tets' "
      "size.\n"},
+    {"tessellate",
+     2,
+     {"--chord"},
+     tessellate,
+     "mesh_tool tessellate CAD OUT --chord METRES\n"
+     "  Puts triangles in place of the faces of a STEP or IGES file, NURBS among them, no farther\n"
+     "  from them than the chord, and checks that. Such files tell their unit themselves.\n"},
 };
 
 std::string helpText()
