@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "soft_tissue_sim/geometry/box3.h"
+#include "turned_surface.h"
 
 namespace soft_tissue::studies
 {
@@ -106,53 +107,31 @@ Points samplesInside(const Points& x, const std::vector<Triangle>& triangles)
   return samples;
 }
 
-/** Turns a profile, given for 0 ... 1, about the z axis: from pole to pole, or once around. */
+/** A body of a turned profile, given for 0 ... 1: from pole to pole, or once around. */
 FieldBody turned(const std::string& name, const Profile& profile, bool poles, int around, int rows)
 {
+  Points line;
+  for (int row = 0; row < rows + (poles ? 1 : 0); ++row)
+  {
+    line.push_back(profile(static_cast<double>(row) / rows));
+  }
+  if (poles)
+  {
+    line.front().x() = line.back().x() = 0.0;
+  }
+  const TriMesh mesh = turnedSurface(line, around, !poles);
   FieldBody body;
   body.name = name;
-  const int rings = poles ? rows - 1 : rows;
-  for (int ring = 0; ring < rings; ++ring)
-  {
-    const Vec3 p = profile((ring + (poles ? 1.0 : 0.0)) / rows);
-    for (int k = 0; k < around; ++k)
-    {
-      const double angle = 2.0 * M_PI * k / around;
-      body.x.emplace_back(p.x() * std::cos(angle), p.x() * std::sin(angle), p.z());
-    }
-  }
-  std::vector<Triangle> triangles;
-  const auto node = [&](int ring, int k) { return ring % rings * around + k % around; };
-  for (int ring = 0; ring + (poles ? 1 : 0) < rings; ++ring)
-  {
-    for (int k = 0; k < around; ++k)
-    {
-      triangles.push_back({node(ring, k), node(ring + 1, k), node(ring + 1, k + 1)});
-      triangles.push_back({node(ring, k), node(ring + 1, k + 1), node(ring, k + 1)});
-    }
-  }
-  for (const int end : {0, 1})
-  {
-    const Index pole = static_cast<Index>(body.x.size());
-    for (int k = 0; poles && k < around; ++k)
-    {
-      const Index a = node(end * (rings - 1), k), b = node(end * (rings - 1), k + 1);
-      triangles.push_back(end == 0 ? Triangle{pole, a, b} : Triangle{pole, b, a});
-    }
-    if (poles)
-    {
-      body.x.push_back(profile(end));
-    }
-  }
-  body.elements = triangles.size();
+  body.x = mesh.nodes;
+  body.elements = mesh.triangles.size();
   // The boundary of a cone over a closed surface, whatever its shape, is that surface.
   const Index tip = static_cast<Index>(body.x.size());
   std::vector<Tet> cone;
-  for (const Triangle& t : triangles)
+  for (const Triangle& t : mesh.triangles)
   {
     cone.push_back({tip, t[0], t[1], t[2]});
   }
-  const Points samples = samplesInside(body.x, triangles);
+  const Points samples = samplesInside(body.x, mesh.triangles);
   body.x.insert(body.x.end(), samples.begin(), samples.end());
   body.surface = extractBoundary(static_cast<Index>(body.x.size()), cone);
   return body;
@@ -162,7 +141,7 @@ FieldBody turned(const std::string& name, const Profile& profile, bool poles, in
 FieldBody sphereOfTriangles()
 {
   return turned(
-      "sphere", [](double t) { return Vec3(std::sin(M_PI * t), 0.0, std::cos(M_PI * t)); }, true,
+      "sphere", [](double t) { return Vec3(std::sin(M_PI * t), 0.0, -std::cos(M_PI * t)); }, true,
       27, 19);
 }
 
@@ -171,7 +150,7 @@ FieldBody torusOfTriangles()
   return turned(
       "torus of triangles",
       [](double t) {
-        return Vec3(1.0 + 0.4 * std::sin(2.0 * M_PI * t), 0.0, 0.4 * std::cos(2.0 * M_PI * t));
+        return Vec3(1.0 + 0.4 * std::sin(2.0 * M_PI * t), 0.0, -0.4 * std::cos(2.0 * M_PI * t));
       },
       false, 64, 16);
 }
@@ -182,7 +161,7 @@ FieldBody appleOfTriangles()
       "apple",
       [](double t) {
         const double radius = 0.4 + 0.6 * std::sin(M_PI * t);
-        return Vec3(radius * std::sin(M_PI * t), 0.0, radius * std::cos(M_PI * t));
+        return Vec3(radius * std::sin(M_PI * t), 0.0, -radius * std::cos(M_PI * t));
       },
       true, 16, 13);
 }

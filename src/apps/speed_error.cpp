@@ -5,20 +5,32 @@
 #include <exception>
 #include <string>
 
+#include "contact_study.h"
 #include "field_study.h"
 
 namespace
 {
 constexpr const char* kUsage =
-    "usage: speed_error field --out DIR [--quick]\n"
+    "usage: speed_error field|contact --out DIR [--quick]\n"
     "  field    distance fields: DIR/field.csv; rosrun soft_tissue_sim plot_speed_error.py DIR\n"
     "           draws it\n"
+    "  contact  forces on tools against contact mechanics: DIR/contact.csv\n"
     "  --quick  small bodies only, each timed once\n";
+
+using Study = void (*)(const std::string& folder, bool quick);
+
+Study studyNamed(const std::string& name)
+{
+  return name == "field"     ? soft_tissue::studies::studyFields
+         : name == "contact" ? soft_tissue::studies::studyContact
+                             : nullptr;
 }
+}  // namespace
 
 int main(int argc, char** argv)
 {
-  std::string study, folder;
+  std::string folder;
+  Study study = nullptr;
   bool quick = false, known = argc > 1;
   for (int i = 1; i < argc && known; ++i)
   {
@@ -32,11 +44,11 @@ int main(int argc, char** argv)
     }
     else
     {
-      known = study.empty() && std::strcmp(argv[i], "field") == 0;
-      study = argv[i];
+      known = study == nullptr && studyNamed(argv[i]) != nullptr;
+      study = studyNamed(argv[i]);
     }
   }
-  if (!known || study.empty() || folder.empty())
+  if (!known || study == nullptr || folder.empty())
   {
     std::fprintf(stderr, "%s", kUsage);
     return argc == 2 && std::strcmp(argv[1], "--help") == 0 ? 0 : 2;
@@ -44,7 +56,7 @@ int main(int argc, char** argv)
   try
   {
     mkdir(folder.c_str(), 0777);  // what went wrong shows when the file is opened
-    soft_tissue::studies::studyFields(folder, quick);
+    study(folder, quick);
   }
   catch (const std::exception& error)
   {

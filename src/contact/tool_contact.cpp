@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "soft_tissue_sim/base/error.h"
+#include "friction.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/contact/sample_sums.h"
 #include "tissue_in_tool.h"
@@ -58,24 +58,23 @@ class ToolContact::Impl
         no_depth_(tissue.node_count, std::numeric_limits<double>::quiet_NaN()),
         tool_(tool),
         tool_in_tissue_(tissue, tool_, options),
-        tissue_in_tool_(tissue, tool_, options)
-  {
-    if (options.friction != 0.0)
-    {
-      throw Error("contact of a tool: friction = " + std::to_string(options.friction) +
-                  ", must be 0: tools slide on tissue without friction");
-    }
-  }
+        tissue_in_tool_(tissue, tool_, options),
+        friction_(options.friction)
+  {}
 
+  void lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s,
+                   bool refresh);
   void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
   void forgetField() { field_forgotten_ = true; }
   bool active() const { return !selection_.empty(); }
+  Friction& friction() { return friction_; }
   const std::vector<ContactSample>& samplesAt(const Points& x);
   void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian);
   const std::vector<double>& depth() const;
   ContactTimes takeTimes() { return std::exchange(times_, ContactTimes()); }
 
  private:
+  bool haveSamplesAt(const Points& x) const;
   void select();
   void widenTo(double motion);
   void ensureField();
@@ -89,9 +88,11 @@ class ToolContact::Impl
   RigidBodyShape tool_;
   ToolInTissue tool_in_tissue_;
   TissueInTool tissue_in_tool_;
+  Friction friction_;
 
-  Points start_;         ///< the body at the start of the step
-  Box3 swept_;           ///< the tool before and after the step
+  Pose X_WT_ = Pose::Identity();  ///< the tool's, where samples_ were taken
+  Points start_;                  ///< the body at the start of the step
+  Box3 swept_;                    ///< the tool before and after the step
   double margin_ = 0.0;  ///< how far the body may move before the selection is too small, m
   BoxSelection selection_;
   bool refresh_field_ = false;    ///< march anew before the field is read
@@ -103,6 +104,23 @@ class ToolContact::Impl
   std::vector<ContactSample> samples_;
   ContactTimes times_;
 };
+
+/** Friction of a step is that of the contacts it starts with: where the last one ended, mostly. */
+void ToolContact::Impl::lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
+                                    double step_s, bool refresh)
+{
+  if (!friction_.acts())
+  {
+    return;
+  }
+  if (!haveSamplesAt(x) || X_WT_.matrix() != X_WT_before.matrix())
+  {
+    beginStep(x, X_WT_before, X_WT_before, refresh);
+  }
+  const std::vector<ContactSample>& touching = samplesAt(x);
+  const ScopedTimer timer(times_.respond);
+  friction_.lag(touching, x, X_WT_before, X_WT, step_s);
+}
 
 void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
                                   bool refresh)
@@ -116,6 +134,7 @@ void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, cons
   have_samples_ = false;
   samples_.clear();
 
+  X_WT_ = X_WT;
   tissue_in_tool_.place(X_WT_before);
   swept_ = tissue_in_tool_.bounds();
   tissue_in_tool_.place(X_WT);
@@ -173,10 +192,15 @@ void ToolContact::Impl::ensureField()
   field_checked_ = true;
 }
 
-const std::vector<ContactSample>& ToolContact::Impl::samplesAt(const Points& x)
+bool ToolContact::Impl::haveSamplesAt(const Points& x) const
 {
   const std::size_t bytes = body_.size() * sizeof(Vec3);
-  if (!active() || (have_samples_ && std::memcmp(body_.data(), bodyIn(x), bytes) == 0))
+  return have_samples_ && std::memcmp(body_.data(), bodyIn(x), bytes) == 0;
+}
+
+const std::vector<ContactSample>& ToolContact::Impl::samplesAt(const Points& x)
+{
+  if (!active() || haveSamplesAt(x))
   {
     return samples_;
   }
@@ -244,8 +268,9 @@ ToolContact::ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
 ToolContact::~ToolContact() = default;
 
 void ToolContact::beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
-                            double /*step_s*/, bool refresh)
+                            double step_s, bool refresh)
 {
+  impl_->lagFriction(x, X_WT_before, X_WT, step_s, refresh);
   impl_->beginStep(x, X_WT_before, X_WT, refresh);
 }
 
@@ -261,22 +286,29 @@ bool ToolContact::active() const
 
 double ToolContact::value(const Points& x)
 {
-  return contactEnergy(impl_->samplesAt(x));
+  return contactEnergy(impl_->samplesAt(x)) + impl_->friction().value(x);
 }
 
 void ToolContact::addGradient(const Points& x, Points& gradient)
 {
   addContactGradient(impl_->samplesAt(x), gradient);
+  impl_->friction().addGradient(x, gradient);
 }
 
 void ToolContact::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
 {
   impl_->addHessian(x, curvature, hessian);
+  impl_->friction().addHessian(x, hessian);
 }
 
 const std::vector<ContactSample>& ToolContact::samples(const Points& x)
 {
   return impl_->samplesAt(x);
+}
+
+const std::vector<FrictionForce>& ToolContact::frictionForces(const Points& x)
+{
+  return impl_->friction().forcesAt(x);
 }
 
 const std::vector<double>& ToolContact::depth() const

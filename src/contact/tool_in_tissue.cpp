@@ -1,5 +1,7 @@
 #include "tool_in_tissue.h"
 
+#include <algorithm>
+
 #include "moving_ends.h"
 #include "quadrature.h"
 #include "soft_tissue_sim/geometry/clip.h"
@@ -145,11 +147,13 @@ void ToolInTissue::addPieces(Index edge, const Points& x, const DistanceField& f
 }
 
 // A true distance is not linear across a tet. The rule is laid over whole stretches inside the
-// tissue, so only the tissue's surface moves its points, and MovingEnds accounts for that.
+// tissue, so only the tissue's surface moves its points, and MovingEnds accounts for that. Long
+// edges are cut in fixed cells first: where a stretch falls apart only the rule of one cell jumps.
 void ToolInTissue::addStretches(Index edge, const Points& x, const DistanceField& field,
                                 std::vector<ContactSample>& samples)
 {
   const std::vector<SegmentPiece>& pieces = edge_hosts_.disjointPieces(edge);
+  const int cells = cellsOf(edge);
   for (std::size_t first = 0, last = 0; first < pieces.size(); first = ++last)
   {
     while (last + 1 < pieces.size() &&
@@ -157,8 +161,7 @@ void ToolInTissue::addStretches(Index edge, const Points& x, const DistanceField
     {
       ++last;
     }
-    const Interval stretch = {pieces[first].where.begin, pieces[last].where.end};
-    MovingEnds ends(stretch, edgePoint(edge, 1.0) - edgePoint(edge, 0.0));
+    const Interval inside = {pieces[first].where.begin, pieces[last].where.end};
     std::size_t at = first;
     const auto sampleAt = [&](double parameter, double area, ContactSample& sample) {
       while (at < last && pieces[at].where.end < parameter)
@@ -167,31 +170,51 @@ void ToolInTissue::addStretches(Index edge, const Points& x, const DistanceField
       }
       return measure(edgePoint(edge, parameter), hosts_[pieces[at].host], area, x, field, sample);
     };
-    ContactSample begin;
-    if (stretch.begin > 0.0)
+    const auto cellOf = [&](double parameter) { return static_cast<int>(parameter * cells); };
+    double begin = inside.begin;
+    for (int cell = cellOf(begin); begin < inside.end; ++cell)
     {
-      sampleAt(stretch.begin, surface_.edge_area[edge], begin);
-    }
-    forEachPoint(kGauss2, stretch, [&](double parameter, double weight) {
-      ContactSample sample;
-      if (sampleAt(parameter, weight * surface_.edge_area[edge], sample))
+      const double end = std::min((cell + 1.0) / cells, inside.end);
+      if (end > begin)  // rounding may put a begin on the cell's end
       {
-        ends.count(sample, parameter);
-        samples.push_back(sample);
+        addStretch(edge, {begin, end}, begin > 0.0 && begin == inside.begin,
+                   end < 1.0 && end == inside.end, sampleAt, samples);
+        begin = end;
       }
-    });
-    if (stretch.begin > 0.0 && ends.close(begin, true))
-    {
-      samples.push_back(begin);
     }
-    ContactSample end;
-    if (stretch.end < 1.0)
+  }
+}
+
+template <typename SampleAt>
+void ToolInTissue::addStretch(Index edge, const Interval& stretch, bool begin_moves, bool end_moves,
+                              const SampleAt& sampleAt, std::vector<ContactSample>& samples) const
+{
+  const double area = surface_.edge_area[edge];
+  MovingEnds ends(stretch, edgePoint(edge, 1.0) - edgePoint(edge, 0.0));
+  ContactSample begin;
+  if (begin_moves)
+  {
+    sampleAt(stretch.begin, area, begin);
+  }
+  forEachPoint(kGauss2, stretch, [&](double parameter, double weight) {
+    ContactSample sample;
+    if (sampleAt(parameter, weight * area, sample))
     {
-      sampleAt(stretch.end, surface_.edge_area[edge], end);
-      if (ends.close(end, false))
-      {
-        samples.push_back(end);
-      }
+      ends.count(sample, parameter);
+      samples.push_back(sample);
+    }
+  });
+  if (begin_moves && ends.close(begin, true))
+  {
+    samples.push_back(begin);
+  }
+  ContactSample end;
+  if (end_moves)
+  {
+    sampleAt(stretch.end, area, end);
+    if (ends.close(end, false))
+    {
+      samples.push_back(end);
     }
   }
 }
@@ -208,6 +231,15 @@ bool ToolInTissue::measure(const Vec3& p, const Host& host, double area, const P
   sample.force = sample.stiffness_area * sample.depth;
   sample.tool_sign = 1;
   return sample.depth > 0.0;
+}
+
+int ToolInTissue::cellsOf(Index edge) const
+{
+  constexpr double kMostCells = 1000.0;
+  const double length = (edgePoint(edge, 1.0) - edgePoint(edge, 0.0)).norm();
+  return tissue_.short_edge > 0.0
+             ? static_cast<int>(std::min(length / tissue_.short_edge, kMostCells)) + 1
+             : 1;
 }
 
 Vec3 ToolInTissue::edgePoint(Index edge, double parameter) const

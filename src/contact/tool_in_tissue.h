@@ -51,6 +51,10 @@ class ToolInTissue
                  std::vector<ContactSample>& samples);
   void addStretches(Index edge, const Points& x, const DistanceField& field,
                     std::vector<ContactSample>& samples);
+  template <typename SampleAt>
+  void addStretch(Index edge, const Interval& stretch, bool begin_moves, bool end_moves,
+                  const SampleAt& sampleAt, std::vector<ContactSample>& samples) const;
+  int cellsOf(Index edge) const;
   bool measure(const Vec3& p, const Host& host, double area, const Points& x,
                const DistanceField& field, ContactSample& sample) const;
   Vec3 edgePoint(Index edge, double parameter) const;

@@ -45,6 +45,19 @@ double smallestSize(const std::vector<TissueInfo>& tissues)
   }
   return smallest;
 }
+
+/** The length a tenth of a tissue's boundary edges fall short of, m. */
+double shortEdge(const TissueInfo& tissue)
+{
+  std::vector<double> lengths;
+  for (const Edge& edge : tissue.surface.edges)
+  {
+    lengths.push_back((tissue.rest.nodes[edge[1]] - tissue.rest.nodes[edge[0]]).norm());
+  }
+  const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
+  std::nth_element(lengths.begin(), tenth, lengths.end());
+  return *tenth;
+}
 }  // namespace
 
 Scene::Impl::Impl(const SceneConfig& config) : config_(config)
@@ -189,6 +202,7 @@ void Scene::Impl::addContact(std::size_t index)
   body.surface = &info.surface;
   body.first_node = tissue.first_node;
   body.node_count = tissue.node_count;
+  body.short_edge = shortEdge(info);
   contact.term = std::make_unique<ToolContact>(
       body, shape, makeDistanceField(tissue_config.field, fieldTopology(contact.tissue)), options);
   // Where the closest feature is searched for, features of any age start the search as well.

@@ -1,9 +1,9 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
 #include "scene_impl.h"
 #include "soft_tissue_sim/base/timer.h"
-#include "soft_tissue_sim/contact/sample_sums.h"
 
 namespace soft_tissue
 {
@@ -226,23 +226,30 @@ void Scene::Impl::collectContacts()
     {
       continue;
     }
+    const auto tissue = static_cast<Index>(contact.tissue);
     ToolState& tool = tools_[contact.tool].state;
-    const std::vector<ContactSample>& samples = contact.term->samples(x_);
-    addToolWrench(samples, tool.X_WT.translation(), tool.wrench_W.force, tool.wrench_W.torque);
-    for (const ContactSample& sample : samples)
+    for (const ContactSample& sample : contact.term->samples(x_))
     {
-      ContactPoint point;
-      point.position_W = sample.position;
       // d grows along the gradient for the intruder: the tool, or the tissue that has the tool
       // around it.
-      point.normal_W = -sample.tool_sign * sample.gradient.normalized();
-      point.force_W = sample.forceOnTool();
-      point.depth = sample.depth;
-      point.area = sample.area;
-      point.tissue = static_cast<Index>(contact.tissue);
+      const Vec3 normal = -sample.tool_sign * sample.gradient.normalized();
+      tool.contacts.push_back(
+          {sample.position, normal, sample.depth, sample.area, sample.forceOnTool(), tissue});
       report_.max_penetration_m = std::max(report_.max_penetration_m, sample.depth);
-      tool.contacts.push_back(point);
       ++report_.contacts;
+    }
+    for (const FrictionForce& force : contact.term->frictionForces(x_))
+    {
+      tool.contacts.push_back({force.position, force.normal, 0.0, 0.0, force.on_tool, tissue});
+    }
+  }
+  for (Tool& tool : tools_)
+  {
+    for (const ContactPoint& point : tool.state.contacts)
+    {
+      tool.state.wrench_W.force += point.force_W;
+      tool.state.wrench_W.torque +=
+          (point.position_W - tool.X_WT.translation()).cross(point.force_W);
     }
   }
 }

@@ -68,7 +68,7 @@ const Section<ContactConfig>& contactSection()
                         " E / R, E being the tissue's Young's modulus and R the radius of the "
                         "largest ball inside the tool.")
           .optional("friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
-                    "Coulomb coefficient.")
+                    "Coulomb coefficient; tissue that sticks creeps by less than 0.1 mm/s.")
           .notAvailable("max_penetration_m", "Depth that must not be exceeded.");
   return section;
 }

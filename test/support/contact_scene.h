@@ -142,6 +142,17 @@ struct ContactScene
   void begin(const Points& x, const Pose& X_WT) { contact->beginStep(x, X_WT, X_WT, 0.01, true); }
 };
 
+/** Adds the force of the tissue on the tool, N, and its moment about `reference`, N m. */
+inline void addToolWrench(const std::vector<ContactSample>& samples, const Vec3& reference,
+                          Vec3& force, Vec3& torque)
+{
+  for (const ContactSample& s : samples)
+  {
+    force += s.forceOnTool();
+    torque += (s.position - reference).cross(s.forceOnTool());
+  }
+}
+
 inline Pose at(const Vec3& position)
 {
   Pose X = Pose::Identity();

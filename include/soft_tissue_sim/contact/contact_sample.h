@@ -37,4 +37,12 @@ struct ContactSample
   Vec3 forceOnTool() const { return -tool_sign * force * gradient; }
 };
 
+/** Friction between tool and tissue at one place. */
+struct FrictionForce
+{
+  Vec3 position = Vec3::Zero();  ///< m, world
+  Vec3 normal = Vec3::Zero();    ///< out of the tissue, unit
+  Vec3 on_tool = Vec3::Zero();   ///< N, world
+};
+
 }  // namespace soft_tissue

@@ -26,9 +26,4 @@ void addLinearStiffness(const ContactSample& sample, BlockMatrix& hessian);
 void addStiffness(const ContactSample& sample, const DepthCurvature& curvature,
                   BlockMatrix& hessian);
 
-/** Adds the force of the tissue on the tool, N, and its moment about `reference` (world, m), N m.
- */
-void addToolWrench(const std::vector<ContactSample>& samples, const Vec3& reference, Vec3& force,
-                   Vec3& torque);
-
 }  // namespace soft_tissue

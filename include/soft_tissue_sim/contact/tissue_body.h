@@ -13,6 +13,9 @@ struct TissueBody
   const BoundarySurface* surface = nullptr;
   Index first_node = 0;  ///< row of the body's node 0 in the positions of the whole scene
   Index node_count = 0;
+  /** Length of short boundary edges at rest, m: what longer edges of a tool are cut to for their
+   * quadrature; 0: not at all. */
+  double short_edge = 0.0;
 };
 
 }  // namespace soft_tissue

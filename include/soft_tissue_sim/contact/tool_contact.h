@@ -18,7 +18,7 @@ struct ToolContactOptions
   bool closest_feature = true;  ///< depth from the nearest boundary feature; false: interpolated
   bool lazy_field = true;       ///< march only as far as contacts read, and only when they do
   double stiffness_pa_per_m = 0.0;  ///< kappa
-  double friction = 0.0;            ///< Coulomb coefficient; only 0 so far
+  double friction = 0.0;            ///< Coulomb coefficient, >= 0
 };
 
 /** Wall time of a contact's parts since the last call of takeTimes(), s. */
@@ -31,15 +31,15 @@ struct ContactTimes
 
 /**
  * Penalty contact of one rigid tool with one tissue: tool surface in the tissue's depth, and tissue
- * surface in the tool's exact distance, each the integral of 1/2 kappa d^2 dA, averaged.
+ * surface in the tool's exact distance, each the integral of 1/2 kappa d^2 dA, averaged; and
+ * Coulomb friction between them.
  *
  * beginStep() lags what the minimisation holds fixed: tool pose, candidate elements, surface areas,
- * nodal depths.
+ * nodal depths, and where and how hard friction acts.
  */
 class ToolContact : public EnergyTerm
 {
  public:
-  /** @throws Error unless friction is 0 */
   ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
               std::unique_ptr<DistanceField> field, const ToolContactOptions& options);
   ~ToolContact() override;
@@ -49,7 +49,7 @@ class ToolContact : public EnergyTerm
    * @param x            positions at the start of the step
    * @param X_WT_before  tool pose at the start of the step
    * @param X_WT         tool pose at its end: the pose contact is evaluated at
-   * @param step_s       length of the step; nothing depends on it without friction
+   * @param step_s       length of the step, > 0
    * @param refresh      march the nodal depths anew on x; false keeps those there are and marches
    * on x only where a contact reads a node that has none yet
    */
@@ -70,6 +70,10 @@ class ToolContact : public EnergyTerm
 
   /** The samples at x, world frame; valid until the next call of any member. */
   const std::vector<ContactSample>& samples(const Points& x);
+
+  /** Friction at x, where contacts were when the step began; valid until the next call of any
+   * member. */
+  const std::vector<FrictionForce>& frictionForces(const Points& x);
 
   /** Nodal depths of the last field; all NaN before the first. */
   const std::vector<double>& depth() const;

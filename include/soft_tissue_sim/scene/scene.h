@@ -46,7 +46,7 @@ struct StepReport
 /**
  * One contact sample between a tool and a tissue, world frame. Forces of all samples add up to the
  * tool's wrench; where an edge crosses the surface a sample of no depth and area carries a small
- * part of it.
+ * part of it, and friction has samples of its own without them.
  */
 struct ContactPoint
 {

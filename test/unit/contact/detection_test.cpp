@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "soft_tissue_sim/base/error.h"
-#include "soft_tissue_sim/contact/sample_sums.h"
 #include "soft_tissue_sim/contact/tool_surface.h"
 #include "soft_tissue_sim/geometry/clip.h"
 #include "support/contact_scene.h"
@@ -210,13 +209,6 @@ TEST(ToolContactDetection, WorksInRowsOfALargerScene)
   {
     EXPECT_GE(*std::min_element(s.node.begin(), s.node.begin() + s.count), 2);
   }
-}
-
-TEST(ToolContact, RejectsFrictionRatherThanForgetIt)
-{
-  ToolContactOptions options = contactModels(1e6)[0];
-  options.friction = 0.1;
-  EXPECT_THROW(ContactScene(tissue(), makeSphere(0.004), options), Error);
 }
 
 }  // namespace soft_tissue::test

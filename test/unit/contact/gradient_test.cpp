@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "soft_tissue_sim/contact/sample_sums.h"
 #include "support/contact_scene.h"
 #include "support/finite_difference.h"
 

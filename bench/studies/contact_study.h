@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace soft_tissue::studies
+{
+/**
+ * Contact forces against contact mechanics, and from mesh to mesh; writes DIR/contact.csv.
+ * @param quick  coarse meshes only
+ * @throws Error if the file can't be written
+ */
+void studyContact(const std::string& folder, bool quick);
+
+}  // namespace soft_tissue::studies
