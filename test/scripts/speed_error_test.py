@@ -32,6 +32,17 @@ class SpeedError(unittest.TestCase):
                                         os.path.join(folder, "error.png"))
             self.assertGreater(os.path.getsize(os.path.join(folder, "error.png")), 1000)
 
+    def test_contact(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "contact", "--out", folder, "--quick"], check=True, stdout=subprocess.DEVNULL)
+            with open(os.path.join(folder, "contact.csv")) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual({row["response"] for row in rows}, {"segment", "point"})
+            for row in rows:
+                error = float(row["force_n"]) / float(row["reference_n"]) - 1
+                self.assertAlmostEqual(error, float(row["error"]), places=3)
+                self.assertGreater(error, 0.1, "so coarse a mesh is too stiff: %s" % row)
+
     def test_bad_calls(self):
         for arguments in ([], ["field"], ["magic", "--out", "x"], ["field", "--out"]):
             result = subprocess.run([PROGRAM] + arguments, stderr=subprocess.PIPE, check=False)

@@ -1,0 +1,83 @@
+#include "indentation.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "support/mesh_file_content.h"
+
+namespace soft_tissue::studies
+{
+namespace
+{
+/** Presses into three meshes; expects the error of the force to fall with some order and to lead
+ * to less than the given share where cells vanish. */
+void expectForce(const Indentation& problem, const std::vector<int>& cells, double least_order,
+                 double most_in_the_limit)
+{
+  const test::ScratchFolder folder;
+  std::vector<double> errors, sizes;
+  for (const int count : cells)
+  {
+    IndentationMesh mesh;
+    mesh.cells = count;
+    const IndentationResult got = indent(problem, mesh, folder.path(""));
+    errors.push_back(got.force / problem.force() - 1.0);
+    sizes.push_back(got.element_m);
+    std::printf(
+        "  %zu tets of %.3f contact radii: force %+.1f %%, %.1e of it sideways, contact "
+        "radius %+.0f %%\n",
+        got.tets, got.element_m / problem.contactRadius(), 100.0 * errors.back(),
+        got.across / got.force, 100.0 * (got.radius_m / problem.contactRadius() - 1.0));
+    // The block's cells are no mirror images of each other: less so the finer they are.
+    EXPECT_LT(got.across, (count == cells.back() ? 0.02 : 0.05) * got.force);
+    EXPECT_NEAR(got.radius_m, problem.contactRadius(), sizes.back());
+  }
+  const std::size_t last = errors.size() - 1;
+  const double order = std::log(errors[0] / errors[last]) / std::log(sizes[0] / sizes[last]);
+  // To where an error of that order leads.
+  const double ratio = std::pow(sizes[last - 1] / sizes[last], order);
+  const double limit = errors[last] - (errors[last - 1] - errors[last]) / (ratio - 1.0);
+  std::printf("  order %.2f, limit %+.1f %%\n", order, 100.0 * limit);
+  EXPECT_GT(order, least_order);
+  EXPECT_LT(std::abs(limit), most_in_the_limit);
+}
+
+TEST(Indentation, OfASphereLeadsToHertzsForce)
+{
+  expectForce(Indentation(), {8, 12, 16}, 1.5, 0.05);
+}
+
+TEST(Indentation, OfAShallowSphereInACompressibleBlockToo)
+{
+  Indentation shallow;
+  shallow.depth_m = 0.0001;
+  shallow.poisson_ratio = 0.3;
+  expectForce(shallow, {8, 12, 16}, 1.2, 0.05);
+}
+
+TEST(Indentation, OfAFlatPunchAndOfACone)
+{
+  Indentation punch;
+  punch.shape = Indentation::Shape::punch;
+  punch.radius_m = 0.002;
+  expectForce(punch, {8, 12, 16}, 0.9, 0.08);  // its edge lets nodes beside it hang
+  Indentation cone;
+  cone.shape = Indentation::Shape::cone;
+  expectForce(cone, {8, 12, 16}, 1.2, 0.08);
+}
+
+TEST(Indentation, FormulasAgreeWithTheirPublishedValues)
+{
+  Indentation sphere, punch, cone;
+  EXPECT_NEAR(sphere.force(), 0.018692, 1e-6);
+  EXPECT_NEAR(sphere.contactRadius(), 0.0022361, 1e-7);
+  punch.shape = Indentation::Shape::punch;
+  punch.radius_m = 0.002;
+  EXPECT_NEAR(punch.force(), 0.025078, 1e-6);
+  cone.shape = Indentation::Shape::cone;
+  EXPECT_NEAR(cone.force(), 0.0069132, 1e-7);
+}
+
+}  // namespace
+}  // namespace soft_tissue::studies
