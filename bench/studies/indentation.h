@@ -12,7 +12,7 @@ struct Indentation
 {
   enum class Shape
   {
-    sphere,  ///< Source: Hertz
+    sphere,  ///< Source: [Hertz1882]
     punch,   ///< flat and round. Source: [Sneddon1965]
     cone,    ///< Source: [Sneddon1965]
   };

@@ -11,7 +11,7 @@ CsvRecorder::CsvRecorder(const std::string& path, const std::vector<soft_tissue:
 {
   stream_.precision(17);
   stream_ << "step,time_s,newton_iterations,linear_iterations,residual,position_error_m,converged,"
-             "halvings,held,"
+             "parts,halvings,held,"
              "min_det_f,max_penetration_m,contacts,state_hash";
   for (const soft_tissue::ToolInfo& tool : tools)
   {
@@ -34,9 +34,9 @@ void CsvRecorder::write(const soft_tissue::Snapshot& snapshot)
   const soft_tissue::StepReport& report = snapshot.report;
   stream_ << report.step << ',' << report.time_s << ',' << report.newton_iterations << ','
           << report.linear_iterations << ',' << report.residual << ',' << report.position_error_m
-          << ',' << report.converged << ',' << report.halvings << ',' << report.held << ','
-          << report.min_det_f << ',' << report.max_penetration_m << ',' << report.contacts << ','
-          << std::hex << snapshot.state_hash << std::dec;
+          << ',' << report.converged << ',' << report.parts << ',' << report.halvings << ','
+          << report.held << ',' << report.min_det_f << ',' << report.max_penetration_m << ','
+          << report.contacts << ',' << std::hex << snapshot.state_hash << std::dec;
   for (const soft_tissue::ToolState& tool : snapshot.tools)
   {
     writeTool(tool);

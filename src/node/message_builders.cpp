@@ -164,6 +164,7 @@ SimStats statsMessage(const Snapshot& snapshot, double real_time_factor, const S
   message.converged = report.converged;
   message.out_of_time = report.out_of_time;
   message.position_error = report.position_error_m;
+  message.parts = static_cast<std::uint32_t>(report.parts);
   message.halvings = static_cast<std::uint32_t>(report.halvings);
   message.held = report.held;
   message.min_det_f = report.min_det_f;

@@ -72,6 +72,7 @@ class Scene::Impl
   void makeSolver();
   FieldTopology fieldTopology(std::size_t tissue) const;
   void aimTools();
+  int partsOfStep() const;
   bool advance(double from, double to, int depth);
   bool minimise(double from, double to);
   double timeLeft() const;
@@ -96,6 +97,7 @@ class Scene::Impl
   std::vector<EnergyTerm*> terms_;
   std::vector<double> term_seconds_;
   Points extrapolated_;
+  Points before_step_;             ///< positions at the start of the running step
   Points before_;                  ///< positions at the start of the running minimisation
   std::vector<SavedState> saved_;  ///< one per level of halving
 };

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "scene_impl.h"
@@ -11,6 +12,36 @@ namespace
 {
 /** A minimisation that stops with more of the forces unbalanced has failed: the step is halved. */
 constexpr double kFailedResidual = 0.05;
+/** How far tool and tissue may move past each other in one part of a step, in the tool's inner
+ * radius; and the most parts. */
+constexpr double kMostMotion = 1.0;
+constexpr double kMostParts = 64.0;
+
+template <typename Visit>
+void forCorners(const Box3& box, const Visit& visit)
+{
+  for (int k = 0; k < 8; ++k)
+  {
+    visit(Vec3((k & 1 ? box.max : box.min).x(), (k & 2 ? box.max : box.min).y(),
+               (k & 4 ? box.max : box.min).z()));
+  }
+}
+
+/** How far a corner of a box goes from one pose to another, m. */
+double farthestMotion(const Box3& box, const Pose& from, const Pose& to)
+{
+  double farthest = 0.0;
+  forCorners(box,
+             [&](const Vec3& p) { farthest = std::max(farthest, (to * p - from * p).norm()); });
+  return farthest;
+}
+
+Box3 boundsAt(const Pose& X, const Box3& box)
+{
+  Box3 bounds;
+  forCorners(box, [&](const Vec3& p) { bounds.extend(X * p); });
+  return bounds;
+}
 }  // namespace
 
 void Scene::Impl::aimTools()
@@ -29,16 +60,24 @@ const StepReport& Scene::Impl::step()
 {
   step_timer_.restart();
   const std::uint64_t number = report_.step + 1;
+  const bool tools_went_alone = report_.held;  // their way back is none through tissue
   const double start_s = report_.time_s;
   aimTools();
   report_ = StepReport();
   report_.step = number;
   report_.time_s = start_s;
-  if (!advance(0.0, 1.0, 0))
+  report_.parts = tools_went_alone ? 1 : partsOfStep();
+  before_step_ = x_;
+  for (int part = 0; part < report_.parts && !report_.held; ++part)
   {
-    x_ = saved_[0].x;
-    stop();
-    report_.held = true;
+    const double from = static_cast<double>(part) / report_.parts;
+    const double to = static_cast<double>(part + 1) / report_.parts;
+    if (!advance(from, to, 0))
+    {
+      x_ = before_step_;
+      stop();
+      report_.held = true;
+    }
   }
   report_.time_s = start_s + config_.time_step_s;
   const Timer finish;
@@ -46,6 +85,39 @@ const StepReport& Scene::Impl::step()
   finish_s_ = finish.seconds();
   report_.ms.total = 1e3 * step_timer_.seconds();
   return report_;
+}
+
+/** In how many parts the step has to be taken so that no tool gets deeper into tissue in one of
+ * them than it finds the way out of. */
+int Scene::Impl::partsOfStep() const
+{
+  double parts = 1.0;
+  for (const Contact& contact : contacts_)
+  {
+    const Tool& tool = tools_[contact.tool];
+    const Tissue& tissue = tissues_[contact.tissue];
+    const auto first = static_cast<std::size_t>(tissue.first_node);
+    double speed = 0.0;
+    for (std::size_t i = first; i < first + tissue.node_count; ++i)
+    {
+      speed = std::max(speed, v_[i].squaredNorm());
+    }
+    const double moved = config_.time_step_s * std::sqrt(speed);
+    const double wanted = (farthestMotion(tool.shape.bounds(), tool.X_WT, tool.X_WT_goal) + moved) /
+                          (kMostMotion * tool.shape.innerRadius());
+    if (!(wanted > parts))
+    {
+      continue;
+    }
+    Box3 reach = boundsAt(tool.X_WT, tool.shape.bounds());
+    reach.extend(boundsAt(tool.X_WT_goal, tool.shape.bounds()));
+    reach.grow(moved);
+    const BoundarySurface& surface = tissue_info_[contact.tissue].surface;
+    const bool near = std::any_of(surface.nodes.begin(), surface.nodes.end(),
+                                  [&](Index node) { return reach.contains(x_[first + node]); });
+    parts = near ? wanted : parts;
+  }
+  return static_cast<int>(std::ceil(std::min(parts, kMostParts)));
 }
 
 /** Wall time the step's minimisation still has, s. */

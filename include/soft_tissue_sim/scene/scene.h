@@ -35,6 +35,7 @@ struct StepReport
   bool out_of_time = false;  ///< ended early, for SolverConfig::budget_ms
   /** Estimate of how far nodes are from where forces balance, m; NaN where nothing tells yet. */
   double position_error_m = 0.0;
+  int parts = 1;      ///< the step was taken in, so that nothing in it jumps through anything
   int halvings = 0;   ///< how often the step was halved before it went through
   bool held = false;  ///< it did not go through: the last good state was kept
   double min_det_f = 1.0;
