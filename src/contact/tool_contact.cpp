@@ -66,6 +66,8 @@ class ToolContact::Impl
                    bool refresh);
   void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
   void forgetField() { field_forgotten_ = true; }
+  void setStiffening(double factor);
+  double stiffening() const { return stiffening_; }
   bool active() const { return !selection_.empty(); }
   Friction& friction() { return friction_; }
   const std::vector<ContactSample>& samplesAt(const Points& x);
@@ -89,6 +91,7 @@ class ToolContact::Impl
   ToolInTissue tool_in_tissue_;
   TissueInTool tissue_in_tool_;
   Friction friction_;
+  double stiffening_ = 1.0;
 
   Pose X_WT_ = Pose::Identity();  ///< the tool's, where samples_ were taken
   Points start_;                  ///< the body at the start of the step
@@ -158,6 +161,14 @@ void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, cons
     refresh_field_ = field_forgotten_ = false;
     times_.field += timer.seconds();
   }
+}
+
+void ToolContact::Impl::setStiffening(double factor)
+{
+  have_samples_ = have_samples_ && factor == stiffening_;
+  stiffening_ = factor;
+  tool_in_tissue_.setStiffness(factor * options_.stiffness_pa_per_m);
+  tissue_in_tool_.setStiffness(factor * options_.stiffness_pa_per_m);
 }
 
 void ToolContact::Impl::select()
@@ -277,6 +288,26 @@ void ToolContact::beginStep(const Points& x, const Pose& X_WT_before, const Pose
 void ToolContact::forgetField()
 {
   impl_->forgetField();
+}
+
+void ToolContact::setStiffening(double factor)
+{
+  impl_->setStiffening(factor);
+}
+
+double ToolContact::stiffening() const
+{
+  return impl_->stiffening();
+}
+
+double ToolContact::deepest(const Points& x)
+{
+  double deepest = 0.0;
+  for (const ContactSample& sample : impl_->samplesAt(x))
+  {
+    deepest = std::max(deepest, sample.depth);
+  }
+  return deepest;
 }
 
 bool ToolContact::active() const

@@ -18,6 +18,8 @@ class ToolInTissue
   ToolInTissue(const TissueBody& tissue, const RigidBodyShape& tool,
                const ToolContactOptions& options);
 
+  void setStiffness(double pa_per_m) { options_.stiffness_pa_per_m = pa_per_m; }
+
   /** Puts the tool at a pose. */
   void place(const Pose& X_WT);
 

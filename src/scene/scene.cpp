@@ -30,6 +30,7 @@ void Scene::Impl::resetWorld()
   for (Contact& contact : contacts_)
   {
     contact.term->forgetField();
+    contact.term->setStiffening(1.0);
   }
 }
 

@@ -208,6 +208,7 @@ void Scene::Impl::addContact(std::size_t index)
   // Where the closest feature is searched for, features of any age start the search as well.
   const bool lazy_depths = options.lazy_field && !options.closest_feature;
   contact.refresh = lazy_depths || tissue_config.field.refresh == FieldRefresh::full;
+  contact.max_penetration_m = contact_config.max_penetration_m;
   contacts_.push_back(std::move(contact));
 }
 

@@ -60,6 +60,7 @@ class Scene::Impl
     std::size_t tool = 0;
     std::unique_ptr<ToolContact> term;
     bool refresh = true;
+    std::optional<double> max_penetration_m;
   };
   struct SavedState
   {
@@ -75,6 +76,8 @@ class Scene::Impl
   int partsOfStep() const;
   bool advance(double from, double to, int depth);
   bool minimise(double from, double to);
+  NewtonReport findBalance(Points* other);
+  bool stiffenWhereTooDeep();
   double timeLeft() const;
   void standStillIfBetter(double potential);
   void predict(double h);

@@ -17,6 +17,12 @@ constexpr double kFailedResidual = 0.05;
 constexpr double kMostMotion = 1.0;
 constexpr double kMostParts = 64.0;
 
+// Where contact is too deep it is made stiffer, in proportion and a little more, and balance is
+// found anew; in later steps it slowly gets as soft as it was.
+constexpr int kMostStiffenings = 12;
+constexpr double kAhead = 1.2, kLeastStiffening = 1.3, kMostStiffening = 4.0;
+constexpr double kRelaxed = 0.98;
+
 template <typename Visit>
 void forCorners(const Box3& box, const Visit& visit)
 {
@@ -171,6 +177,7 @@ bool Scene::Impl::minimise(double from, double to)
   for (const Contact& contact : contacts_)
   {
     const Tool& tool = tools_[contact.tool];
+    contact.term->setStiffening(std::max(1.0, kRelaxed * contact.term->stiffening()));
     contact.term->beginStep(x_, interpolate(tool.X_WT, tool.X_WT_goal, from),
                             interpolate(tool.X_WT, tool.X_WT_goal, to), h, contact.refresh);
     if (contact.term->active())
@@ -189,20 +196,15 @@ bool Scene::Impl::minimise(double from, double to)
   {
     predict(h);
   }
-  newton_options_.budget_s = timeLeft();
-  const NewtonReport newton = newton_->minimise(terms_, newton_options_, x_, term_seconds_,
-                                                dynamic ? &extrapolated_ : nullptr);
+  NewtonReport newton = findBalance(dynamic ? &extrapolated_ : nullptr);
+  for (int k = 0; k < kMostStiffenings && newton.converged && stiffenWhereTooDeep(); ++k)
+  {
+    newton = findBalance(nullptr);
+  }
   for (std::size_t k = 0; k < first_contact; ++k)
   {
     report_.ms.fem += 1e3 * term_seconds_[k];
   }
-  report_.ms.solve += 1e3 * newton.linear_s;
-  report_.newton_iterations += newton.iterations;
-  report_.linear_iterations += newton.linear_iterations;
-  report_.residual = newton.residual;
-  report_.converged = newton.converged;
-  report_.out_of_time = newton.out_of_time;
-  report_.position_error_m = newton.position_error_m;
   const double failed = std::max(kFailedResidual, config_.solver.tolerance);
   if (!newton.finite || !(newton.converged || newton.out_of_time || newton.residual <= failed))
   {
@@ -224,6 +226,46 @@ bool Scene::Impl::minimise(double from, double to)
     v_[i] = v;
   }
   return true;
+}
+
+/** Minimises what terms_ add up to, and reports how that went. */
+NewtonReport Scene::Impl::findBalance(Points* other)
+{
+  newton_options_.budget_s = timeLeft();
+  const NewtonReport newton = newton_->minimise(terms_, newton_options_, x_, term_seconds_, other);
+  report_.ms.solve += 1e3 * newton.linear_s;
+  report_.newton_iterations += newton.iterations;
+  report_.linear_iterations += newton.linear_iterations;
+  report_.residual = newton.residual;
+  report_.converged = newton.converged;
+  report_.out_of_time = newton.out_of_time;
+  report_.position_error_m = newton.position_error_m;
+  return newton;
+}
+
+/** Makes contacts stiffer that are deeper than they may be. @return whether there were any */
+bool Scene::Impl::stiffenWhereTooDeep()
+{
+  bool any = false;
+  for (const Contact& contact : contacts_)
+  {
+    if (!contact.max_penetration_m || !contact.term->active())
+    {
+      continue;
+    }
+    const double share = contact.term->deepest(x_) / *contact.max_penetration_m;
+    if (share > 1.0)
+    {
+      contact.term->setStiffening(contact.term->stiffening() *
+                                  std::clamp(kAhead * share, kLeastStiffening, kMostStiffening));
+      any = true;
+    }
+  }
+  if (any)
+  {
+    newton_->forgetMatrix();
+  }
+  return any;
 }
 
 /** A step left far from its end must not add energy: the potential there is at most that of a body

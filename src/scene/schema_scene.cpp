@@ -69,7 +69,9 @@ const Section<ContactConfig>& contactSection()
                         "largest ball inside the tool.")
           .optional("friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
                     "Coulomb coefficient; tissue that sticks creeps by less than 0.1 mm/s.")
-          .notAvailable("max_penetration_m", "Depth that must not be exceeded.");
+          .optional("max_penetration_m", &ContactConfig::max_penetration_m,
+                    maybe(number(0.0, 1.0, Ends::open), "none", true),
+                    "Depth that contact keeps to by getting stiffer where it is deeper.");
   return section;
 }
 

@@ -59,6 +59,13 @@ class ToolContact : public EnergyTerm
   /** Has the nodal depths marched anew before they are next read, whatever beginStep() is told. */
   void forgetField();
 
+  /** Multiplies the options' stiffness from now on; 1 at first. */
+  void setStiffening(double factor);
+  double stiffening() const;
+
+  /** Largest depth of the samples at x, m. */
+  double deepest(const Points& x);
+
   /** False when nothing can touch during this step: value, gradient and Hessian are then zero. */
   bool active() const;
 

@@ -171,6 +171,7 @@ struct ContactConfig
   Response response = Response::segment;
   std::optional<double> stiffness_pa_per_m;  ///< empty: kAutoStiffness
   double friction = 0.0;                     ///< Coulomb coefficient
+  std::optional<double> max_penetration_m;   ///< empty: as deep as the stiffness lets it
 };
 
 enum class Stepper

@@ -121,8 +121,6 @@ std::vector<BadScene> notAvailable()
       {"    field: {method: cffm}", "    keyframes: [{motion: []}]",
        "tissues[0].keyframes: " NOT_AVAILABLE},
       {"    field: {method: cffm}", "    element: tet10", "tissues[0].element: " NOT_AVAILABLE},
-      {"friction: 0.1", "max_penetration_m: 0.0005",
-       "contacts[0].max_penetration_m: " NOT_AVAILABLE},
       {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
       {"[liver, probe]", "[liver, kidney]",
        "contacts[0].between = [liver, kidney], contact between tissues is " NOT_AVAILABLE},

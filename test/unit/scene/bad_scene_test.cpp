@@ -95,6 +95,8 @@ std::vector<BadScene> badNumbers()
       {"1.0e7", "2.0e15", "contacts[0].stiffness_pa_per_m = 2.0e15, must be in [1, 1e+15]"},
       {"1.0e7", "hard", "contacts[0].stiffness_pa_per_m = hard, must be a number in [1, 1e+15]"},
       {"friction: 0.1", "friction: -0.1", "contacts[0].friction = -0.1, must be in [0, 2]"},
+      {"friction: 0.1", "max_penetration_m: 0",
+       "contacts[0].max_penetration_m = 0, must be in (0, 1)"},
       {"friction: 0.1", "friction: 2.1", "contacts[0].friction = 2.1, must be in [0, 2]"},
   };
 }
