@@ -68,7 +68,6 @@ SceneConfig makeScene(const Indentation& problem, const IndentationMesh& mesh,
   config.file = "indentation";
   config.gravity_m_per_s2.setZero();
   config.solver.stepper = Stepper::quasi_static;
-  config.solver.linear = LinearSolverKind::pcg;
   config.solver.tolerance = 1e-4;
   config.solver.max_iterations = 60;
   TissueConfig tissue;

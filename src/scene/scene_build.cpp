@@ -12,8 +12,6 @@ namespace
 {
 /** A tool may start touching, but not with more of its inner radius than this inside tissue. */
 constexpr double kDeepStart = 0.5;
-/** Static scenes up to this size are solved directly where the scene leaves it to us. */
-constexpr Index kCholeskyStaticNodes = 60000;
 /** At a tolerance of 1, minimisations end with nodes this share of a tissue's size off. */
 constexpr double kSettled = 1e-3;
 
@@ -141,10 +139,7 @@ void Scene::Impl::makeSolver()
   }
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
-  const bool direct = config_.solver.linear == LinearSolverKind::cholesky ||
-                      (config_.solver.linear == LinearSolverKind::automatic &&
-                       config_.solver.stepper == Stepper::quasi_static &&
-                       static_cast<Index>(x_.size()) <= kCholeskyStaticNodes);
+  const bool direct = config_.solver.linear == LinearSolverKind::cholesky;
   newton_ = std::make_unique<NewtonSolver>(all, held, direct ? makeCholesky() : makePcg());
   newton_options_.tolerance = config_.solver.tolerance;
   newton_options_.max_iterations = config_.solver.max_iterations;

@@ -8,7 +8,7 @@ namespace soft_tissue
 {
 enum class LinearSolverKind
 {
-  automatic,  ///< cholesky for small static problems, pcg otherwise
+  automatic,  ///< pcg: nothing was found yet that cholesky is quicker at
   pcg,        ///< conjugate gradients, preconditioned in two levels
   cholesky,   ///< sparse LDL^T, its symbolic part kept from step to step
 };
