@@ -94,7 +94,7 @@ TEST_P(FailedStep, IsNotTheEnd)
 
 TEST_P(FailedStep, IsHalvedFirst)
 {
-  Scene scene(blockUnderBall(folder_, 3, GetParam()));
+  Scene scene(blockUnderBall(folder_, 4, GetParam()));
   scene.step();
   const Pose goal = raised(snapshotOf(scene).tools[0].X_WT, -0.75 * kJump);
   scene.setToolTarget(0, goal);
