@@ -81,11 +81,7 @@ using Profile = std::function<Vec3(double)>;
 Points samplesInside(const Points& x, const std::vector<Triangle>& triangles)
 {
   constexpr int kAcross = 16;
-  Box3 box;
-  for (const Vec3& p : x)
-  {
-    box.extend(p);
-  }
+  const Box3 box = boundsOf(x);
   Points samples;
   for (int i = 0; i < kAcross * kAcross * kAcross; ++i)
   {

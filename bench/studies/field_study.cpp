@@ -67,11 +67,7 @@ void studyGrids(Table& table, const FieldBody& body, const std::vector<int>& res
                 int repeats)
 {
   const std::vector<double> truth = trueDepths(body);
-  Box3 box;
-  for (const Vec3& p : body.x)
-  {
-    box.extend(p);
-  }
+  const Box3 box = boundsOf(body.x);
   FieldBody middle;  // a body of one node
   middle.name = body.name + " centre";
   middle.dimension = body.dimension;
@@ -162,11 +158,7 @@ void studyBody(Table& table, const FieldBody& body, int repeats,
   }
   if (haveOpenVdb() && body.dimension == 3)
   {
-    Box3 box;
-    for (const Vec3& p : body.x)
-    {
-      box.extend(p);
-    }
+    const Box3 box = boundsOf(body.x);
     for (const int resolution : volume_resolutions)
     {
       std::vector<double> depths;

@@ -50,16 +50,6 @@ double shareOfArea(const Points& x, const BoundarySurface& surface, const Adjace
   }
   return share;
 }
-
-Box3 transformed(const Pose& X, const Box3& box)
-{
-  const Vec3 centre = X * Vec3(0.5 * (box.min + box.max));
-  const Vec3 half = X.linear().cwiseAbs() * (0.5 * (box.max - box.min));
-  Box3 result;
-  result.min = centre - half;
-  result.max = centre + half;
-  return result;
-}
 }  // namespace
 
 TissueInTool::TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool,

@@ -65,12 +65,7 @@ void ExactMarching::begin(const Points& x)
 
 void ExactMarching::makeOrder(const Points& x)
 {
-  Points finite = x;
-  for (Vec3& p : finite)
-  {
-    p = p.allFinite() ? p : Vec3(Vec3::Zero());
-  }
-  for (const Index node : mortonOrder(finite))
+  for (const Index node : mortonOrder(finiteOf(x)))
   {
     // A node in no tet is neither inside nor on the boundary.
     if (topology_.surface->node_slot[node] < 0 &&

@@ -118,12 +118,8 @@ void GridMarching::fitTree(const Points& x)
 {
   if (tree_.empty())
   {
-    Points finite = x;  // to build it needs finite triangles, not to search them
-    for (Vec3& p : finite)
-    {
-      p = p.allFinite() ? p : Vec3(Vec3::Zero());
-    }
-    tree_.build(topology_.surface->triangles, finite);
+    // To build it needs finite triangles, not to search them.
+    tree_.build(topology_.surface->triangles, finiteOf(x));
   }
   if (!tree_fits_)
   {

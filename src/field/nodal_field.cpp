@@ -56,6 +56,15 @@ void NodalField::forgetMarch(const Points& x)
   touched_.clear();
 }
 
+Points NodalField::finiteOf(Points x)
+{
+  for (Vec3& p : x)
+  {
+    p = p.allFinite() ? p : Vec3(Vec3::Zero());
+  }
+  return x;
+}
+
 void NodalField::checkWanted(const std::vector<Index>& wanted) const
 {
   for (const Index node : wanted)

@@ -23,6 +23,9 @@ class NodalField : public DistanceField
    */
   void forgetMarch(const Points& x);
 
+  /** The positions, zero in place of those that are no numbers. */
+  static Points finiteOf(Points x);
+
   /** @throws Error for a node that isn't there */
   void checkWanted(const std::vector<Index>& wanted) const;
 

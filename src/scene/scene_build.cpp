@@ -34,11 +34,7 @@ double smallestSize(const std::vector<TissueInfo>& tissues)
   double smallest = std::numeric_limits<double>::infinity();
   for (const TissueInfo& tissue : tissues)
   {
-    Box3 box;
-    for (const Vec3& p : tissue.rest.nodes)
-    {
-      box.extend(p);
-    }
+    const Box3 box = boundsOf(tissue.rest.nodes);
     smallest = std::min(smallest, (box.max - box.min).maxCoeff());
   }
   return smallest;

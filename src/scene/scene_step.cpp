@@ -23,30 +23,17 @@ constexpr int kMostStiffenings = 12;
 constexpr double kAhead = 1.2, kLeastStiffening = 1.3, kMostStiffening = 4.0;
 constexpr double kRelaxed = 0.98;
 
-template <typename Visit>
-void forCorners(const Box3& box, const Visit& visit)
-{
-  for (int k = 0; k < 8; ++k)
-  {
-    visit(Vec3((k & 1 ? box.max : box.min).x(), (k & 2 ? box.max : box.min).y(),
-               (k & 4 ? box.max : box.min).z()));
-  }
-}
-
 /** How far a corner of a box goes from one pose to another, m. */
 double farthestMotion(const Box3& box, const Pose& from, const Pose& to)
 {
   double farthest = 0.0;
-  forCorners(box,
-             [&](const Vec3& p) { farthest = std::max(farthest, (to * p - from * p).norm()); });
+  for (int k = 0; k < 8; ++k)
+  {
+    const Vec3 corner((k & 1 ? box.max : box.min).x(), (k & 2 ? box.max : box.min).y(),
+                      (k & 4 ? box.max : box.min).z());
+    farthest = std::max(farthest, (to * corner - from * corner).norm());
+  }
   return farthest;
-}
-
-Box3 boundsAt(const Pose& X, const Box3& box)
-{
-  Box3 bounds;
-  forCorners(box, [&](const Vec3& p) { bounds.extend(X * p); });
-  return bounds;
 }
 }  // namespace
 
@@ -115,8 +102,8 @@ int Scene::Impl::partsOfStep() const
     {
       continue;
     }
-    Box3 reach = boundsAt(tool.X_WT, tool.shape.bounds());
-    reach.extend(boundsAt(tool.X_WT_goal, tool.shape.bounds()));
+    Box3 reach = transformed(tool.X_WT, tool.shape.bounds());
+    reach.extend(transformed(tool.X_WT_goal, tool.shape.bounds()));
     reach.grow(moved);
     const BoundarySurface& surface = tissue_info_[contact.tissue].surface;
     const bool near = std::any_of(surface.nodes.begin(), surface.nodes.end(),

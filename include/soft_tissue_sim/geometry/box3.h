@@ -40,4 +40,25 @@ struct Box3
   }
 };
 
+inline Box3 boundsOf(const Points& points)
+{
+  Box3 box;
+  for (const Vec3& p : points)
+  {
+    box.extend(p);
+  }
+  return box;
+}
+
+/** The box around a moved one, which is then no longer along the axes. */
+inline Box3 transformed(const Pose& X, const Box3& box)
+{
+  const Vec3 centre = X * Vec3(0.5 * (box.min + box.max));
+  const Vec3 half = X.linear().cwiseAbs() * (0.5 * (box.max - box.min));
+  Box3 result;
+  result.min = centre - half;
+  result.max = centre + half;
+  return result;
+}
+
 }  // namespace soft_tissue

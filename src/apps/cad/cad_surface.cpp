@@ -316,11 +316,6 @@ CadSurface load(const std::string& path, double chord_m)
 }
 }  // namespace
 
-bool canReadCad()
-{
-  return true;
-}
-
 CadSurface loadCadSurface(const std::string& path, double chord_m)
 {
   if (!(chord_m > 0.0) || !std::isfinite(chord_m))
@@ -337,11 +332,6 @@ CadSurface loadCadSurface(const std::string& path, double chord_m)
   }
 }
 #else
-bool canReadCad()
-{
-  return false;
-}
-
 CadSurface loadCadSurface(const std::string& path, double)
 {
   throw Error(path + ": this mesh_tool was built without OpenCASCADE, which reads STEP and IGES; " +

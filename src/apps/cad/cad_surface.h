@@ -18,9 +18,6 @@ struct CadSurface
   std::size_t samples = 0;   ///< points of triangles it was looked for at
 };
 
-/** Whether this program was built with OpenCASCADE, which reads such files. */
-bool canReadCad();
-
 /**
  * Reads the faces of a STEP or IGES file, NURBS among them, in the file's own unit of length, and
  * puts triangles in their place whose points are no farther than `chord_m` from them. That is

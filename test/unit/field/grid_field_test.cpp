@@ -15,16 +15,6 @@ namespace
 {
 using test::FieldBody;
 
-Box3 boundsOf(const Points& x)
-{
-  Box3 box;
-  for (const Vec3& p : x)
-  {
-    box.extend(p);
-  }
-  return box;
-}
-
 struct Errors
 {
   double mean = 0.0, largest = 0.0;
