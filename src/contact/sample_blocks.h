@@ -7,9 +7,6 @@
 
 namespace soft_tissue
 {
-/** hessian(row, column) += b. @throws Error if its pattern has no such block */
-void addBlock(BlockMatrix& hessian, Index row, Index column, const Mat3& b);
-
 /** hessian += block(i, j) for the pairs of some nodes; the block is symmetric in that (j, i) has
  * its transpose. */
 template <typename Block>
@@ -22,7 +19,7 @@ void addBlocks(int count, const std::array<Index, ContactSample::kMaxNodes>& nod
     {
       if (node[i] <= node[j])
       {
-        addBlock(hessian, node[i], node[j], block(i, j));
+        hessian.add(node[i], node[j], block(i, j));
       }
     }
   }

@@ -25,6 +25,7 @@ BlockMatrix::BlockMatrix(const Adjacency& neighbours)
     offsets_.push_back(static_cast<Index>(columns_.size()));
   }
   values_.assign(9 * columns_.size() + 3, 0.0);
+  row_coupling_.assign(rows, -1);
   // Rows ascend, so the blocks above the diagonal of a column come in the order of their rows: the
   // order in which that column's row has its blocks below the diagonal.
   mirror_.resize(columns_.size());
@@ -44,6 +45,12 @@ void BlockMatrix::setZero()
   parallelFor(static_cast<Index>(values_.size()), kGrain, [&](Index begin, Index end) {
     std::fill(values_.begin() + begin, values_.begin() + end, 0.0);
   });
+  for (const Coupling& coupling : couplings_)
+  {
+    row_coupling_[coupling.row] = -1;
+  }
+  couplings_.clear();
+  next_coupling_.clear();
 }
 
 Index BlockMatrix::find(Index row, Index column) const
@@ -56,17 +63,28 @@ Index BlockMatrix::find(Index row, Index column) const
 
 void BlockMatrix::add(Index row, Index column, const Mat3& b)
 {
-  const Index position = find(row, column);
-  if (position < 0)
+  if (row > column)
   {
     throw Error("block (" + std::to_string(row) + ", " + std::to_string(column) +
-                ") is not in the matrix's pattern");
+                ") is below the diagonal");
   }
-  double* values = block(position);
-  for (int k = 0; k < 9; ++k)
+  const Index position = find(row, column);
+  if (position >= 0)
   {
-    values[k] += b.data()[k];
+    Eigen::Map<Mat3>(block(position)) += b;
+    return;
   }
+  for (Index i = row_coupling_[row]; i >= 0; i = next_coupling_[i])
+  {
+    if (couplings_[i].column == column)
+    {
+      couplings_[i].block += b;
+      return;
+    }
+  }
+  next_coupling_.push_back(row_coupling_[row]);
+  row_coupling_[row] = static_cast<Index>(couplings_.size());
+  couplings_.push_back({row, column, b});
 }
 
 }  // namespace soft_tissue

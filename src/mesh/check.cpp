@@ -5,7 +5,7 @@
 
 #include "mesh_scan.h"
 #include "soft_tissue_sim/mesh/topology.h"
-#include "union_find.h"
+#include "soft_tissue_sim/base/union_find.h"
 
 namespace soft_tissue
 {

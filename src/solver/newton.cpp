@@ -64,10 +64,14 @@ double largest(const Points& points)
 
 NewtonSolver::NewtonSolver(const Adjacency& neighbours, const std::vector<Index>& fixed,
                            std::unique_ptr<LinearSolver> linear)
-    : fixed_(fixed), hessian_(neighbours), linear_(std::move(linear))
+    : fixed_(fixed),
+      is_fixed_(neighbours.size(), false),
+      hessian_(neighbours),
+      linear_(std::move(linear))
 {
   for (const Index row : fixed_)
   {
+    is_fixed_[row] = true;
     for (Index k = hessian_.offsets()[row]; k < hessian_.offsets()[row + 1]; ++k)
     {
       fixed_blocks_.push_back(k);
@@ -148,6 +152,13 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
   {
     double* block = hessian_.block(hessian_.diagonal(node));
     block[0] = block[4] = block[8] = 1.0;
+  }
+  for (Coupling& coupling : hessian_.couplings())
+  {
+    if (is_fixed_[coupling.row] || is_fixed_[coupling.column])
+    {
+      coupling.block.setZero();
+    }
   }
   {
     const ScopedTimer timer(report.linear_s);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling_rows.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
 #include "soft_tissue_sim/solver/pcg_kernels.h"
@@ -72,6 +73,7 @@ class Conjugator
   {
     const Index n = a.rows();
     loaded_ = true;
+    couplings_.load(a.couplings());
     values_.resize(a.values().size());
     inverse_.resize(9 * static_cast<std::size_t>(n) + 1);
     parallelFor(n, kGrain, [&](Index begin, Index end) {
@@ -142,9 +144,10 @@ class Conjugator
     while (now.rr > enough && iteration < std::min(most, hopeless))
     {
       ++iteration;
-      const double curvature = parallelSum(n, kGrain, [&](Index begin, Index end) {
+      double curvature = parallelSum(n, kGrain, [&](Index begin, Index end) {
         return kernels.multiply(rows, begin, end, p, q);
       });
+      curvature += couplings_.addProduct(p, q);
       if (!(curvature > 0.0))
       {
         return {iteration, 1.0, true, false};
@@ -197,7 +200,8 @@ class Conjugator
   }
 
   bool loaded_ = false;
-  std::vector<Real> values_;   ///< the matrix, both triangles
+  std::vector<Real> values_;  ///< the matrix, both triangles
+  CouplingRows<Real> couplings_;
   std::vector<Real> inverse_;  ///< of its diagonal blocks
   std::vector<Real> residual_, direction_, image_, solution_;
   NodeGroups<Real> groups_ = {};

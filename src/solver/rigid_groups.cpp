@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "soft_tissue_sim/base/union_find.h"
+
 namespace soft_tissue
 {
 namespace
@@ -19,9 +21,11 @@ constexpr double kShift = 1e-6;
 using Matrix = Eigen::MatrixXd;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/** Nodes that A couples to others: not the fixed ones. */
-std::vector<Index> coupledNodes(const BlockMatrix& a)
+/** Nodes that blocks of A's pattern couple to others, which the fixed ones are not: body by body.
+ */
+std::vector<std::vector<Index>> coupledNodes(const BlockMatrix& a)
 {
+  UnionFind bodies(a.rows());
   std::vector<char> coupled(a.rows(), 0);
   for (Index row = 0; row < a.rows(); ++row)
   {
@@ -30,18 +34,49 @@ std::vector<Index> coupledNodes(const BlockMatrix& a)
       if (std::any_of(a.block(k), a.block(k) + 9, [](double v) { return v != 0.0; }))
       {
         coupled[row] = coupled[a.columns()[k]] = 1;
+        bodies.join(row, a.columns()[k]);
       }
     }
   }
-  std::vector<Index> nodes;
+  std::vector<std::vector<Index>> nodes;
+  std::vector<Index> number(a.rows(), -1);  // per first node: which body
   for (Index row = 0; row < a.rows(); ++row)
   {
     if (coupled[row] != 0)
     {
-      nodes.push_back(row);
+      Index& body = number[bodies.find(row)];
+      if (body < 0)
+      {
+        body = static_cast<Index>(nodes.size());
+        nodes.emplace_back();
+      }
+      nodes[body].push_back(row);
     }
   }
   return nodes;
+}
+
+/** Groups of each body, by its share of the nodes; one body alone has several or none. */
+std::vector<Index> groupCounts(const std::vector<std::vector<Index>>& bodies)
+{
+  std::size_t all = 0;
+  for (const std::vector<Index>& body : bodies)
+  {
+    all += body.size();
+  }
+  std::vector<Index> counts;
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+  {
+    const auto size = static_cast<Index>(bodies[k].size());
+    const Index share = static_cast<Index>(kMostGroups * bodies[k].size() / all);
+    const Index wanted = std::min(size / kNodesEach, share);
+    counts.push_back(bodies.size() == 1 ? (wanted < 2 ? 0 : wanted) : std::max<Index>(wanted, 1));
+    if (static_cast<Index>(k) >= kMostGroups)
+    {
+      counts.back() = 0;
+    }
+  }
+  return counts;
 }
 
 /** Halves the nodes [begin, end) across their longest side until there are `parts`; appends the
@@ -92,17 +127,20 @@ Mat6 projected(const Mat3& b, const Vec3& arm_i, const Vec3& arm_j)
 void RigidGroups::makeGroups(const BlockMatrix& a, const Points& x)
 {
   offsets_ = {0};
-  nodes_ = coupledNodes(a);
-  const Index count = std::min(static_cast<Index>(nodes_.size()) / kNodesEach, kMostGroups);
-  if (count < 2)
-  {
-    nodes_.clear();
-    group_.assign(x.size(), 0);
-    return;
-  }
-  group_.assign(x.size(), count);
+  nodes_.clear();
+  std::vector<std::vector<Index>> bodies = coupledNodes(a);
+  const std::vector<Index> counts = groupCounts(bodies);
   std::vector<Index> sizes;
-  bisect(x, nodes_.begin(), nodes_.end(), count, sizes);
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+  {
+    if (counts[k] > 0)
+    {
+      bisect(x, bodies[k].begin(), bodies[k].end(), counts[k], sizes);
+      nodes_.insert(nodes_.end(), bodies[k].begin(), bodies[k].end());
+    }
+  }
+  const auto count = static_cast<Index>(sizes.size());
+  group_.assign(x.size(), count);
   for (Index g = 0; g < count; ++g)
   {
     const Index begin = offsets_.back(), end = begin + sizes[g];
@@ -167,30 +205,30 @@ void RigidGroups::build(const BlockMatrix& a, const Points& x)
   }
   placeArms(x);
   Matrix coarse = Matrix::Zero(6 * size(), 6 * size());
+  const auto add = [&](Index row, Index column, const Mat3& b) {
+    const Index g = group_[row], h = group_[column];
+    if (g == size() || h == size())
+    {
+      return;
+    }
+    const Mat6 block = projected(b, Eigen::Map<const Vec3>(arms_.data() + 3 * row),
+                                 Eigen::Map<const Vec3>(arms_.data() + 3 * column));
+    coarse.block<6, 6>(6 * g, 6 * h) += block;
+    if (column != row)
+    {
+      coarse.block<6, 6>(6 * h, 6 * g) += block.transpose();
+    }
+  };
   for (Index row = 0; row < a.rows(); ++row)
   {
-    const Index g = group_[row];
-    if (g == size())
-    {
-      continue;
-    }
-    const Vec3 arm = Eigen::Map<const Vec3>(arms_.data() + 3 * row);
     for (Index k = a.diagonal(row); k < a.offsets()[row + 1]; ++k)
     {
-      const Index column = a.columns()[k];
-      const Index h = group_[column];
-      if (h == size())
-      {
-        continue;
-      }
-      const Mat6 block = projected(Eigen::Map<const Mat3>(a.block(k)), arm,
-                                   Eigen::Map<const Vec3>(arms_.data() + 3 * column));
-      coarse.block<6, 6>(6 * g, 6 * h) += block;
-      if (column != row)
-      {
-        coarse.block<6, 6>(6 * h, 6 * g) += block.transpose();
-      }
+      add(row, a.columns()[k], Eigen::Map<const Mat3>(a.block(k)));
     }
+  }
+  for (const Coupling& coupling : a.couplings())
+  {
+    add(coupling.row, coupling.column, coupling.block);
   }
   if (size() > 0)
   {

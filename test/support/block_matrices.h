@@ -53,7 +53,15 @@ inline void addRandomElements(const std::vector<Tet>& tets, unsigned seed, Block
     {
       for (int j = 0; j < 4; ++j)
       {
-        a.add(tet[i], tet[j], element.block<3, 3>(3 * i, 3 * j));
+        const Mat3 block = element.block<3, 3>(3 * i, 3 * j);
+        if (tet[i] <= tet[j])
+        {
+          a.add(tet[i], tet[j], block);
+        }
+        else if (const Index below = a.find(tet[i], tet[j]); below >= 0)
+        {
+          Eigen::Map<Mat3>(a.block(below)) += block;  // for those who read both triangles
+        }
       }
     }
   }

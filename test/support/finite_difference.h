@@ -74,6 +74,11 @@ inline Eigen::MatrixXd dense(const BlockMatrix& a)
       m.block<3, 3>(3 * row, 3 * column) = block;
     }
   }
+  for (const Coupling& c : a.couplings())
+  {
+    m.block<3, 3>(3 * c.row, 3 * c.column) += c.block;
+    m.block<3, 3>(3 * c.column, 3 * c.row) += c.block.transpose();
+  }
   return m;
 }
 

@@ -17,8 +17,6 @@ void addContactGradient(const std::vector<ContactSample>& samples, Points& gradi
 /**
  * hessian += the part kappa area c_i c_j g g^T of one sample's second derivative, which is all of
  * it where the depth is linear, and positive semi-definite; blocks with row <= column.
- *
- * @throws Error if a pair of nodes is outside the matrix's pattern
  */
 void addLinearStiffness(const ContactSample& sample, BlockMatrix& hessian);
 

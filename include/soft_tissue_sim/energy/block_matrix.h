@@ -6,10 +6,20 @@
 
 namespace soft_tissue
 {
+/** A block above the diagonal, outside the fixed pattern: what nodes of different elements do to
+ * each other where they touch. */
+struct Coupling
+{
+  Index row = 0;
+  Index column = 0;  ///< > row
+  Mat3 block;
+};
+
 /**
  * Square symmetric matrix of 3 x 3 blocks with a fixed pattern: one block row per node, a block for
  * each pair of nodes that share an element and for each node itself. The pattern has both
- * triangles; of the numbers those of blocks with row <= column count.
+ * triangles; of the numbers those of blocks with row <= column count. Blocks outside the pattern,
+ * which come and go with contact, are a list of couplings.
  */
 class BlockMatrix
 {
@@ -19,6 +29,7 @@ class BlockMatrix
   explicit BlockMatrix(const Adjacency& neighbours);
 
   Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
+  /** All numbers, and no couplings. */
   void setZero();
 
   /** Position of block (row, column) in blocks(), or -1 outside the pattern. O(log row length). */
@@ -34,8 +45,13 @@ class BlockMatrix
     return values_.data() + 9 * static_cast<std::size_t>(position);
   }
 
-  /** Adds B at (row, column), and only there: the caller adds the transpose at (column, row). */
+  /** Adds B at (row, column): in the pattern, or else to the couplings. @throws Error unless row <=
+   * column */
   void add(Index row, Index column, const Mat3& b);
+
+  /** Each place once, in the order of their first addition. */
+  const std::vector<Coupling>& couplings() const { return couplings_; }
+  std::vector<Coupling>& couplings() { return couplings_; }
 
   const std::vector<Index>& offsets() const { return offsets_; }
   const std::vector<Index>& columns() const { return columns_; }
@@ -48,6 +64,9 @@ class BlockMatrix
   std::vector<Index> diagonal_;  ///< rows
   std::vector<Index> mirror_;    ///< per block on or below the diagonal: its transpose's position
   std::vector<double> values_;   ///< 9 per block, and 3 more so that wide loads stay inside
+  std::vector<Coupling> couplings_;
+  std::vector<Index> row_coupling_;   ///< rows: the last coupling of the row, or -1
+  std::vector<Index> next_coupling_;  ///< per coupling: the one before it in its row, or -1
 };
 
 }  // namespace soft_tissue

@@ -105,6 +105,7 @@ class NewtonSolver
                     std::vector<double>& seconds);
 
   std::vector<Index> fixed_;
+  std::vector<bool> is_fixed_;       ///< per node
   std::vector<Index> fixed_blocks_;  ///< blocks in a row or column of a fixed node
   BlockMatrix hessian_;
   std::unique_ptr<LinearSolver> linear_;

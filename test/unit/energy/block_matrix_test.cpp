@@ -42,17 +42,37 @@ TEST(BlockMatrix, KnowsWhereABlocksTransposeStands)
   }
 }
 
-TEST(BlockMatrix, RefusesABlockOutsideItsPattern)
+TEST(BlockMatrix, KeepsBlocksOutsideItsPatternAsCouplings)
+{
+  BlockMatrix a(pattern());
+  const Mat3 b = Mat3::Random();
+  a.add(0, 1, b);
+  a.add(3, 4, Mat3::Identity());
+  a.add(0, 1, 2.0 * b);
+  a.add(0, 2, b);
+  ASSERT_EQ(a.couplings().size(), 2u);
+  EXPECT_EQ(a.couplings()[0].row, 0);
+  EXPECT_EQ(a.couplings()[0].column, 1);
+  EXPECT_EQ(a.couplings()[0].block, b + 2.0 * b);
+  EXPECT_EQ(a.couplings()[1].block, Mat3::Identity());
+  EXPECT_EQ(Eigen::Map<const Mat3>(a.block(a.find(0, 2))), b);
+  a.setZero();
+  EXPECT_TRUE(a.couplings().empty());
+  a.add(0, 1, b);
+  EXPECT_EQ(a.couplings().at(0).block, b);
+}
+
+TEST(BlockMatrix, RefusesABlockBelowTheDiagonal)
 {
   BlockMatrix a(pattern());
   try
   {
-    a.add(0, 1, Mat3::Identity());
+    a.add(1, 0, Mat3::Identity());
     FAIL() << "added";
   }
   catch (const Error& error)
   {
-    EXPECT_STREQ(error.what(), "block (0, 1) is not in the matrix's pattern");
+    EXPECT_STREQ(error.what(), "block (1, 0) is below the diagonal");
   }
 }
 

@@ -137,6 +137,42 @@ TEST(RigidGroups, CoarseMatrixIsThatOfRigidMotions)
   EXPECT_LT((inverse * expected - Eigen::MatrixXd::Identity(coarse, coarse)).norm(), 1e-8);
 }
 
+/** Two bodies whose boxes overlap, with something between them. */
+TEST(RigidGroups, BelongToOneBodyEachAndSeeWhatCouplesThem)
+{
+  const Index each = 200;
+  TetMesh pair = makeBox({4, 4, 7}, {0.4, 0.4, 0.7});
+  ASSERT_EQ(pair.nodes.size(), std::size_t(each));
+  const std::size_t tets = pair.tets.size();
+  for (Index i = 0; i < each; ++i)
+  {
+    pair.nodes.push_back(pair.nodes[i] + Vec3(0.05, 0.05, 0.05));
+  }
+  for (std::size_t t = 0; t < tets; ++t)
+  {
+    Tet other = pair.tets[t];
+    for (Index& node : other)
+    {
+      node += each;
+    }
+    pair.tets.push_back(other);
+  }
+  BlockMatrix matrix(nodeNeighbours(2 * each, pair.tets));
+  addRandomElements(pair.tets, 71, matrix);
+  RigidGroups apart, coupled;
+  apart.build(matrix, pair.nodes);
+  matrix.add(3, each + 5, 0.5 * Mat3::Identity());
+  coupled.build(matrix, pair.nodes);
+  ASSERT_GE(coupled.size(), 4);
+  for (int g = 0; g < coupled.size(); ++g)
+  {
+    const Index first = coupled.nodes()[coupled.offsets()[g]];
+    const Index last = coupled.nodes()[coupled.offsets()[g + 1] - 1];
+    EXPECT_EQ(first < each, last < each) << g;
+  }
+  EXPECT_NE(apart.inverse(), coupled.inverse());
+}
+
 TEST(RigidGroups, AreOutdatedByWhatIsFarFromWhereTheyWereBuilt)
 {
   const Bar bar;
