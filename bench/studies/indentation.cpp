@@ -85,7 +85,7 @@ SceneConfig makeScene(const Indentation& problem, const IndentationMesh& mesh,
   config.tools.push_back(tool);
   ContactConfig contact;
   contact.tissue = tissue.name;
-  contact.tool = tool.name;
+  contact.other = tool.name;
   contact.response = mesh.response;
   contact.stiffness_pa_per_m = mesh.stiffness * problem.young_modulus_pa / problem.contactRadius();
   config.contacts.push_back(contact);

@@ -8,9 +8,33 @@
 
 namespace soft_tissue
 {
+/** Where two bodies press on each other when a step begins, and what sticking would mean there. */
+struct Grip
+{
+  Vec3 normal;         ///< unit
+  double press = 0.0;  ///< N along it
+  int count = 0;
+  /** With these weights of its nodes the point of the second body, less that of the first; the
+   * former alone where the first is a tool. */
+  std::array<Index, ContactSample::kMaxNodes> node{};
+  std::array<double, ContactSample::kMaxNodes> weight{};
+  Vec3 stuck_at;  ///< what those weights give at the end of the step if nothing slides, m
+  Vec3 origin;    ///< added to what they give, where the friction acts, m
+
+  Vec3 at(const Points& x) const
+  {
+    Vec3 point = Vec3::Zero();
+    for (int j = 0; j < count; ++j)
+    {
+      point += weight[j] * x[node[j]];
+    }
+    return point;
+  }
+};
+
 /**
- * Coulomb friction between a rigid tool and a tissue as a potential of how far the tissue slides
- * along the tool during a step.
+ * Coulomb friction between two bodies as a potential of how far one slides along the other during a
+ * step.
  *
  * Where it acts, how hard both press and along which plane is that of the step's start. Slower than
  * a stick speed the force grows smoothly with the speed; that is how far a hold creeps. The
@@ -25,16 +49,9 @@ class Friction
 
   bool acts() const { return coefficient_ > 0.0; }
 
-  /**
-   * Takes the contacts a step starts with.
-   * @param samples      at x, with the tool at X_WT_before
-   * @param x            positions of all nodes at the start of the step, m
-   * @param X_WT_before  tool pose at its start
-   * @param X_WT         tool pose at its end
-   * @param step_s       its length, > 0
-   */
-  void lag(const std::vector<ContactSample>& samples, const Points& x, const Pose& X_WT_before,
-           const Pose& X_WT, double step_s);
+  /** Forgets all grips. @param step_s  length of the step that begins, > 0 */
+  void begin(double step_s);
+  void add(const Grip& grip) { grips_.push_back(grip); }
 
   double value(const Points& x) const;
   void addGradient(const Points& x, Points& gradient) const;
@@ -45,24 +62,11 @@ class Friction
   const std::vector<FrictionForce>& forcesAt(const Points& x);
 
  private:
-  /** A place where both touch: the tissue is there with these weights of its nodes. */
-  struct Touch
-  {
-    Vec3 normal;      ///< away from the tissue, unit
-    double strength;  ///< coefficient times normal force, N
-    Vec3 carried_to;  ///< where the tissue's point would be at the end if it stuck to the tool, m
-    int count;
-    std::array<Index, ContactSample::kMaxNodes> node;
-    std::array<double, ContactSample::kMaxNodes> weight;
-  };
-
-  double forcePerSlip(const Touch& touch, double slip) const;
-  static Vec3 pointOf(const Touch& touch, const Points& x);
-  static Vec3 slip(const Touch& touch, const Points& x);
+  double forcePerSlip(const Grip& grip, double slip) const;
 
   double coefficient_;
-  double stick_m_ = 0.0;  ///< slip below which the force is not full
-  std::vector<Touch> touches_;
+  double stick_m_ = 0.0;  ///< slip of full friction
+  std::vector<Grip> grips_;
   std::vector<FrictionForce> forces_;
 };
 

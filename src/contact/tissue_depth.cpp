@@ -134,14 +134,40 @@ bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coord
                            const DistanceField& field, ContactSample& sample) const
 {
   sample.position = p;
-  return closest_feature_ ? findFeature(p, tet, x, field, sample)
+  const auto any = [](Index) { return true; };
+  return closest_feature_ ? findFeature(p, tet, x, field, any, sample)
                           : interpolate(p, (*tissue_.tets)[tet], coords, field, sample);
+}
+
+bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& coords,
+                               const Points& x, const DistanceField& field, const Points& rest,
+                               const Vec3& rest_of, ContactSample& sample) const
+{
+  if (!closest_feature_)
+  {
+    return evaluate(p, tet, coords, x, field, sample);
+  }
+  const Tet& nodes = (*tissue_.tets)[tet];
+  const Eigen::Vector4d weights = coords.weights(p);
+  Vec3 place = Vec3::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    place += weights[k] * rest[nodes[k]];
+  }
+  const Vec3 apart = rest_of - place;
+  const double halfway = 0.5 * apart.dot(rest_of + place);
+  const auto onThisSide = [&](Index i) {
+    const Triangle& t = tissue_.surface->triangles[i];
+    return apart.dot(rest[t[0]] + rest[t[1]] + rest[t[2]]) / 3.0 <= halfway;
+  };
+  sample.position = p;
+  return findFeature(p, tet, x, field, onThisSide, sample);
 }
 
 DepthCurvature TissueDepth::curvature(const ContactSample& sample, const Points& x) const
 {
   std::array<Vec3, 4> corners;
-  for (int k = 0; k < sample.count; ++k)
+  for (int k = 0; k < (closest_feature_ ? 3 : 4); ++k)
   {
     corners[k] = x[sample.node[k] - tissue_.first_node];
   }
@@ -165,8 +191,9 @@ bool TissueDepth::interpolate(const Vec3& p, const Tet& tet, const TetCoordinate
   return true;
 }
 
+template <typename Allowed>
 bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
-                              ContactSample& sample) const
+                              const Allowed& allowed, ContactSample& sample) const
 {
   Starts starts;
   for (const Index node : (*tissue_.tets)[tet])
@@ -185,11 +212,14 @@ bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const D
   TrianglePoint found;
   found.squared_distance = std::numeric_limits<double>::infinity();
   const auto consider = [&](Index i) {
-    const TrianglePoint point = onTriangle(i);
-    if (point.squared_distance < found.squared_distance)
+    if (allowed(i))
     {
-      nearest = i;
-      found = point;
+      const TrianglePoint point = onTriangle(i);
+      if (point.squared_distance < found.squared_distance)
+      {
+        nearest = i;
+        found = point;
+      }
     }
     return found.squared_distance;
   };

@@ -1,64 +1,18 @@
 #include "tissue_in_tool.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "moving_ends.h"
 #include "quadrature.h"
 #include "soft_tissue_sim/collision/inside_intervals.h"
 
 namespace soft_tissue
 {
-namespace
-{
-Adjacency trianglesOfEdges(const BoundarySurface& surface)
-{
-  Adjacency rows;
-  rows.offsets.assign(surface.edges.size() + 1, 0);
-  for (const auto& edges : surface.triangle_edges)
-  {
-    for (const Index edge : edges)
-    {
-      ++rows.offsets[edge + 1];
-    }
-  }
-  for (std::size_t e = 0; e < surface.edges.size(); ++e)
-  {
-    rows.offsets[e + 1] += rows.offsets[e];
-  }
-  rows.items.resize(3 * surface.triangles.size());
-  std::vector<Index> fill(rows.offsets.begin(), rows.offsets.end() - 1);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-  {
-    for (const Index edge : surface.triangle_edges[t])
-    {
-      rows.items[fill[edge]++] = static_cast<Index>(t);
-    }
-  }
-  return rows;
-}
-
-/** A third of the area of all triangles in a row. */
-double shareOfArea(const Points& x, const BoundarySurface& surface, const Adjacency& rows,
-                   Index row)
-{
-  double share = 0.0;
-  for (const Index* i = rows.begin(row); i != rows.end(row); ++i)
-  {
-    const Triangle& t = surface.triangles[*i];
-    share += (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm() / 6.0;
-  }
-  return share;
-}
-}  // namespace
-
 TissueInTool::TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool,
-                           const ToolContactOptions& options)
+                           const ContactOptions& options)
     : tissue_(tissue),
       tool_(tool),
       options_(options),
       cell_length_(0.5 * tool.innerRadius()),
-      edge_triangles_(trianglesOfEdges(*tissue.surface))
+      surface_(*tissue.surface, options.segments)
 {}
 
 void TissueInTool::place(const Pose& X_WT)
@@ -70,36 +24,35 @@ void TissueInTool::place(const Pose& X_WT)
 
 void TissueInTool::lagAreas(const Points& x, const BoxSelection& elements)
 {
-  constexpr double kMostCells = 1000.0;
-  const BoundarySurface& surface = *tissue_.surface;
-  elements_.clear();
+  near_.clear();
   if (options_.segments)
   {
-    for (const Index e : elements.surfaceEdges())
-    {
-      const double length = (x[surface.edges[e][1]] - x[surface.edges[e][0]]).norm();
-      const int cells = static_cast<int>(std::min(length / cell_length_, kMostCells)) + 1;
-      elements_.push_back({e, shareOfArea(x, surface, edge_triangles_, e), cells});
-    }
-    return;
+    near_ = elements.surfaceEdges();
   }
-  for (const Index node : elements.surfaceNodes())
+  else
   {
-    elements_.push_back({node, shareOfArea(x, surface, surface.node_triangles, node), 0});
+    for (const Index node : elements.surfaceNodes())
+    {
+      near_.push_back(tissue_.surface->node_slot[node]);
+    }
+  }
+  for (const Index element : near_)
+  {
+    surface_.lag(element, x, cell_length_);
   }
 }
 
 void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& samples) const
 {
-  for (const Element& element : elements_)
+  for (const Index element : near_)
   {
     if (options_.segments)
     {
-      addEdge(element, x, samples);
+      addEdge(surface_.all()[element], x, samples);
     }
     else
     {
-      addPoint(element, x, samples);
+      addPoint(surface_.all()[element], x, samples);
     }
   }
 }
@@ -113,7 +66,7 @@ bool TissueInTool::measure(const Vec3& p, double area, ContactSample& sample) co
   sample.area = 0.5 * area;  // the two directions of the pair are averaged
   sample.stiffness_area = options_.stiffness_pa_per_m * sample.area;
   sample.force = sample.stiffness_area * sample.depth;
-  sample.tool_sign = -1;
+  sample.side = -1;
   return sample.depth > 0.0;
 }
 
@@ -126,14 +79,15 @@ DepthCurvature TissueInTool::curvature(const ContactSample& sample) const
   return curvature;
 }
 
-void TissueInTool::addPoint(const Element& node, const Points& x,
+void TissueInTool::addPoint(const SurfaceElement& point, const Points& x,
                             std::vector<ContactSample>& samples) const
 {
+  const Index node = point.nodes[0];
   ContactSample sample;
-  if (bounds_W_.contains(x[node.number]) && measure(x[node.number], node.area, sample))
+  if (bounds_W_.contains(x[node]) && measure(x[node], point.area, sample))
   {
     sample.count = 1;
-    sample.node[0] = tissue_.first_node + node.number;
+    sample.node[0] = tissue_.first_node + node;
     sample.coefficient[0] = 1.0;
     samples.push_back(sample);
   }
@@ -141,10 +95,10 @@ void TissueInTool::addPoint(const Element& node, const Points& x,
 
 // Cells wholly inside the tool keep their quadrature points; in a cell that crosses the surface
 // they move with it, and MovingEnds accounts for that.
-void TissueInTool::addEdge(const Element& edge, const Points& x,
+void TissueInTool::addEdge(const SurfaceElement& edge, const Points& x,
                            std::vector<ContactSample>& samples) const
 {
-  const Edge& nodes = tissue_.surface->edges[edge.number];
+  const auto& nodes = edge.nodes;
   const Vec3& a = x[nodes[0]];
   const Vec3 along = x[nodes[1]] - a;
   Box3 box;

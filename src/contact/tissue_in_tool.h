@@ -6,6 +6,7 @@
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/depth_curvature.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
+#include "surface_elements.h"
 
 namespace soft_tissue
 {
@@ -13,8 +14,7 @@ namespace soft_tissue
 class TissueInTool
 {
  public:
-  TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool,
-               const ToolContactOptions& options);
+  TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool, const ContactOptions& options);
 
   void setStiffness(double pa_per_m) { options_.stiffness_pa_per_m = pa_per_m; }
 
@@ -34,26 +34,21 @@ class TissueInTool
   DepthCurvature curvature(const ContactSample& sample) const;
 
  private:
-  struct Element
-  {
-    Index number;  ///< surface node or place in surface->edges
-    double area;   ///< m^2
-    int cells;     ///< of an edge
-  };
-
-  void addPoint(const Element& node, const Points& x, std::vector<ContactSample>& samples) const;
-  void addEdge(const Element& edge, const Points& x, std::vector<ContactSample>& samples) const;
+  void addPoint(const SurfaceElement& point, const Points& x,
+                std::vector<ContactSample>& samples) const;
+  void addEdge(const SurfaceElement& edge, const Points& x,
+               std::vector<ContactSample>& samples) const;
   bool measure(const Vec3& p, double area, ContactSample& sample) const;
 
   TissueBody tissue_;
   const RigidBodyShape& tool_;
-  ToolContactOptions options_;
+  ContactOptions options_;
   double cell_length_;
-  Adjacency edge_triangles_;  ///< rows: surface edges
   Pose X_WT_ = Pose::Identity();
   Pose X_TW_ = Pose::Identity();
   Box3 bounds_W_;
-  std::vector<Element> elements_;
+  SurfaceElements surface_;
+  std::vector<Index> near_;  ///< elements of it that may touch
 };
 
 }  // namespace soft_tissue

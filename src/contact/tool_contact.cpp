@@ -1,15 +1,14 @@
 #include "soft_tissue_sim/contact/tool_contact.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <string>
 #include <utility>
 
+#include "body_motion.h"
 #include "friction.h"
+#include "host_field.h"
 #include "soft_tissue_sim/base/timer.h"
-#include "soft_tissue_sim/contact/sample_sums.h"
+#include "soft_tissue_sim/contact/depth_curvature.h"
 #include "tissue_in_tool.h"
 #include "tool_in_tissue.h"
 
@@ -17,24 +16,9 @@ namespace soft_tissue
 {
 namespace
 {
-/** Largest distance any point has moved, m; infinite when that can't be told. */
-double largestMotion(const Points& from, const Points& to)
-{
-  double squared = 0.0;
-  for (std::size_t i = 0; i < from.size(); ++i)
-  {
-    const double moved = (to[i] - from[i]).squaredNorm();
-    if (!(moved <= squared))
-    {
-      squared = moved;
-    }
-    if (std::isnan(squared))
-    {
-      return std::numeric_limits<double>::infinity();
-    }
-  }
-  return std::sqrt(squared);
-}
+/** How far a body may move before more of it is looked at, in the tool's inner radius, to which
+ * comes what it moved last step. */
+constexpr double kMarginOfRadius = 0.5;
 
 Box3 boundsOf(const Points& x, const std::vector<Index>& nodes)
 {
@@ -45,235 +29,53 @@ Box3 boundsOf(const Points& x, const std::vector<Index>& nodes)
   }
   return box;
 }
+
+/** The tissue's point at a sample, that the tool takes along where it sticks. */
+Grip gripOf(const ContactSample& sample, const Points& x, const Pose& motion)
+{
+  Grip grip;
+  grip.normal = sample.normal();
+  grip.press = sample.force;
+  grip.count = sample.count;
+  grip.node = sample.node;
+  for (int j = 0; j < sample.count; ++j)
+  {
+    grip.weight[j] = -sample.side * sample.coefficient[j];
+  }
+  grip.stuck_at = motion * grip.at(x);
+  grip.origin = Vec3::Zero();
+  return grip;
+}
 }  // namespace
 
-class ToolContact::Impl
+struct ToolContact::Parts
 {
- public:
-  Impl(const TissueBody& tissue, const RigidBodyShape& tool, std::unique_ptr<DistanceField> field,
-       const ToolContactOptions& options)
-      : tissue_(tissue),
-        options_(options),
-        field_(std::move(field)),
-        no_depth_(tissue.node_count, std::numeric_limits<double>::quiet_NaN()),
-        tool_(tool),
-        tool_in_tissue_(tissue, tool_, options),
-        tissue_in_tool_(tissue, tool_, options),
-        friction_(options.friction)
+  TissueBody tissue;
+  RigidBodyShape tool;
+  HostField field;
+  ToolInTissue tool_in_tissue;
+  TissueInTool tissue_in_tool;
+
+  Pose X_WT = Pose::Identity();  ///< the tool's, where samples are taken
+  Points start;                  ///< the body at the start of the step
+  Box3 swept;                    ///< the tool before and after the step
+  double margin = 0.0;           ///< how far the body may move before the selection is too small, m
+  BoxSelection selection;
+
+  Parts(const TissueBody& body, const RigidBodyShape& shape, std::unique_ptr<DistanceField> depths,
+        const ContactOptions& options)
+      : tissue(body),
+        tool(shape),
+        field(std::move(depths), body.node_count, options.lazy_field),
+        tool_in_tissue(tissue, tool, options),
+        tissue_in_tool(tissue, tool, options)
   {}
-
-  void lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s,
-                   bool refresh);
-  void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
-  void forgetField() { field_forgotten_ = true; }
-  void setStiffening(double factor);
-  double stiffening() const { return stiffening_; }
-  bool active() const { return !selection_.empty(); }
-  Friction& friction() { return friction_; }
-  const std::vector<ContactSample>& samplesAt(const Points& x);
-  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian);
-  const std::vector<double>& depth() const;
-  ContactTimes takeTimes() { return std::exchange(times_, ContactTimes()); }
-
- private:
-  bool haveSamplesAt(const Points& x) const;
-  void select();
-  void widenTo(double motion);
-  void ensureField();
-  void collect();
-  const Vec3* bodyIn(const Points& x) const { return x.data() + tissue_.first_node; }
-
-  TissueBody tissue_;
-  ToolContactOptions options_;
-  std::unique_ptr<DistanceField> field_;
-  std::vector<double> no_depth_;
-  RigidBodyShape tool_;
-  ToolInTissue tool_in_tissue_;
-  TissueInTool tissue_in_tool_;
-  Friction friction_;
-  double stiffening_ = 1.0;
-
-  Pose X_WT_ = Pose::Identity();  ///< the tool's, where samples_ were taken
-  Points start_;                  ///< the body at the start of the step
-  Box3 swept_;                    ///< the tool before and after the step
-  double margin_ = 0.0;  ///< how far the body may move before the selection is too small, m
-  BoxSelection selection_;
-  bool refresh_field_ = false;    ///< march anew before the field is read
-  bool field_forgotten_ = false;  ///< and so in the next steps, until that is done
-  bool field_checked_ = false;    ///< all nodes of the selection are known to have their depth
-
-  Points body_;  ///< the body where samples_ were taken
-  bool have_samples_ = false;
-  std::vector<ContactSample> samples_;
-  ContactTimes times_;
 };
 
-/** Friction of a step is that of the contacts it starts with: where the last one ended, mostly. */
-void ToolContact::Impl::lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
-                                    double step_s, bool refresh)
-{
-  if (!friction_.acts())
-  {
-    return;
-  }
-  if (!haveSamplesAt(x) || X_WT_.matrix() != X_WT_before.matrix())
-  {
-    beginStep(x, X_WT_before, X_WT_before, refresh);
-  }
-  const std::vector<ContactSample>& touching = samplesAt(x);
-  const ScopedTimer timer(times_.respond);
-  friction_.lag(touching, x, X_WT_before, X_WT, step_s);
-}
-
-void ToolContact::Impl::beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
-                                  bool refresh)
-{
-  Timer timer;
-  constexpr double kMarginOfRadius = 0.5;
-  body_.assign(bodyIn(x), bodyIn(x) + tissue_.node_count);
-  const double last_motion = start_.empty() ? 0.0 : largestMotion(start_, body_);
-  start_.swap(body_);
-  body_.resize(start_.size());
-  have_samples_ = false;
-  samples_.clear();
-
-  X_WT_ = X_WT;
-  tissue_in_tool_.place(X_WT_before);
-  swept_ = tissue_in_tool_.bounds();
-  tissue_in_tool_.place(X_WT);
-  swept_.extend(tissue_in_tool_.bounds());
-  // Half a radius and what the body moved last step; more is met by widenTo().
-  margin_ =
-      kMarginOfRadius * tool_.innerRadius() + (std::isfinite(last_motion) ? last_motion : 0.0);
-  refresh_field_ = refresh || field_forgotten_;
-  Box3 reach = swept_;
-  reach.grow(margin_);
-  selection_.clear();
-  if (boundsOf(start_, tissue_.surface->nodes).overlaps(reach))
-  {
-    tool_in_tissue_.place(X_WT);
-    select();
-  }
-  times_.detect += timer.restart();
-  if (refresh && !options_.lazy_field)
-  {
-    field_->march(start_);
-    refresh_field_ = field_forgotten_ = false;
-    times_.field += timer.seconds();
-  }
-}
-
-void ToolContact::Impl::setStiffening(double factor)
-{
-  have_samples_ = have_samples_ && factor == stiffening_;
-  stiffening_ = factor;
-  tool_in_tissue_.setStiffness(factor * options_.stiffness_pa_per_m);
-  tissue_in_tool_.setStiffness(factor * options_.stiffness_pa_per_m);
-}
-
-void ToolContact::Impl::select()
-{
-  Box3 reach = swept_;
-  reach.grow(margin_);
-  selection_.select(start_, *tissue_.tets, *tissue_.surface, reach);
-  tissue_in_tool_.lagAreas(start_, selection_);
-  field_checked_ = false;
-}
-
-// The energy stays the same function of x: areas and depths are those of the start whatever the
-// selection, so more elements only add what had been out of reach.
-void ToolContact::Impl::widenTo(double motion)
-{
-  margin_ = std::isfinite(motion) ? 2.0 * motion : std::numeric_limits<double>::max() / 4.0;
-  select();
-}
-
-void ToolContact::Impl::ensureField()
-{
-  const std::vector<double>& known = depth();
-  const bool complete = std::all_of(selection_.tetNodes().begin(), selection_.tetNodes().end(),
-                                    [&](Index node) { return !std::isnan(known[node]); });
-  if (refresh_field_ || !complete)
-  {
-    const ScopedTimer timer(times_.field);
-    field_->marchUntil(start_, selection_.tetNodes());
-    field_forgotten_ = false;
-  }
-  refresh_field_ = false;
-  field_checked_ = true;
-}
-
-bool ToolContact::Impl::haveSamplesAt(const Points& x) const
-{
-  const std::size_t bytes = body_.size() * sizeof(Vec3);
-  return have_samples_ && std::memcmp(body_.data(), bodyIn(x), bytes) == 0;
-}
-
-const std::vector<ContactSample>& ToolContact::Impl::samplesAt(const Points& x)
-{
-  if (!active() || haveSamplesAt(x))
-  {
-    return samples_;
-  }
-  std::copy(bodyIn(x), bodyIn(x) + tissue_.node_count, body_.begin());
-  samples_.clear();
-  collect();
-  have_samples_ = true;
-  return samples_;
-}
-
-void ToolContact::Impl::collect()
-{
-  Timer timer;
-  const double motion = largestMotion(start_, body_);
-  if (motion > margin_)
-  {
-    widenTo(motion);
-  }
-  const bool hosted = tool_in_tissue_.findHosts(body_, selection_.tets());
-  times_.detect += timer.restart();
-  if (hosted && !field_checked_)
-  {
-    ensureField();
-    timer.restart();
-  }
-  if (hosted)
-  {
-    tool_in_tissue_.addSamples(body_, *field_, samples_);
-  }
-  tissue_in_tool_.addSamples(body_, samples_);
-  times_.respond += timer.seconds();
-}
-
-// Clip points are left out: what they add is what the quadrature is off, and small.
-void ToolContact::Impl::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
-{
-  for (const ContactSample& sample : samplesAt(x))
-  {
-    if (sample.stiffness_area == 0.0)
-    {
-      continue;
-    }
-    if (curvature == Curvature::positive)
-    {
-      addLinearStiffness(sample, hessian);
-      continue;
-    }
-    addStiffness(sample,
-                 sample.tool_sign > 0 ? tool_in_tissue_.curvature(sample, body_)
-                                      : tissue_in_tool_.curvature(sample),
-                 hessian);
-  }
-}
-
-const std::vector<double>& ToolContact::Impl::depth() const
-{
-  return field_->depth().size() == no_depth_.size() ? field_->depth() : no_depth_;
-}
-
 ToolContact::ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
-                         std::unique_ptr<DistanceField> field, const ToolContactOptions& options)
-    : impl_(std::make_unique<Impl>(tissue, tool, std::move(field), options))
+                         std::unique_ptr<DistanceField> field, const ContactOptions& options)
+    : ContactTerm(options, {{tissue.first_node, tissue.node_count}}),
+      parts_(std::make_unique<Parts>(tissue, tool, std::move(field), options))
 {}
 
 ToolContact::~ToolContact() = default;
@@ -281,75 +83,128 @@ ToolContact::~ToolContact() = default;
 void ToolContact::beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
                             double step_s, bool refresh)
 {
-  impl_->lagFriction(x, X_WT_before, X_WT, step_s, refresh);
-  impl_->beginStep(x, X_WT_before, X_WT, refresh);
+  lagFriction(x, X_WT_before, X_WT, step_s, refresh);
+  lagPlaces(x, X_WT_before, X_WT, refresh);
 }
 
-void ToolContact::forgetField()
+/** Friction of a step is that of the contacts it starts with: where the last one ended, mostly. */
+void ToolContact::lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
+                              double step_s, bool refresh)
 {
-  impl_->forgetField();
-}
-
-void ToolContact::setStiffening(double factor)
-{
-  impl_->setStiffening(factor);
-}
-
-double ToolContact::stiffening() const
-{
-  return impl_->stiffening();
-}
-
-double ToolContact::deepest(const Points& x)
-{
-  double deepest = 0.0;
-  for (const ContactSample& sample : impl_->samplesAt(x))
+  if (!friction().acts())
   {
-    deepest = std::max(deepest, sample.depth);
+    return;
   }
-  return deepest;
+  if (!haveSamplesAt(x) || parts_->X_WT.matrix() != X_WT_before.matrix())
+  {
+    lagPlaces(x, X_WT_before, X_WT_before, refresh);
+  }
+  const std::vector<ContactSample>& touching = samples(x);
+  const ScopedTimer timer(times().respond);
+  friction().begin(step_s);
+  const Pose motion = X_WT * X_WT_before.inverse();
+  for (const ContactSample& sample : touching)
+  {
+    if (sample.stiffness_area > 0.0 && sample.force > 0.0)
+    {
+      friction().add(gripOf(sample, x, motion));
+    }
+  }
+}
+
+void ToolContact::lagPlaces(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
+                            bool refresh)
+{
+  Parts& p = *parts_;
+  {
+    const ScopedTimer timer(times().detect);
+    takeBodies(x);
+    const double last_motion = p.start.empty() ? 0.0 : largestMotion(p.start, body(0));
+    p.start = body(0);
+    forgetSamples();
+    p.X_WT = X_WT;
+    p.tissue_in_tool.place(X_WT_before);
+    p.swept = p.tissue_in_tool.bounds();
+    p.tissue_in_tool.place(X_WT);
+    p.swept.extend(p.tissue_in_tool.bounds());
+    p.margin =
+        kMarginOfRadius * p.tool.innerRadius() + (std::isfinite(last_motion) ? last_motion : 0.0);
+    Box3 reach = p.swept;
+    reach.grow(p.margin);
+    p.selection.clear();
+    if (boundsOf(p.start, p.tissue.surface->nodes).overlaps(reach))
+    {
+      p.tool_in_tissue.place(X_WT);
+      select();
+    }
+  }
+  p.field.beginStep(p.start, refresh);
+  p.field.expect(p.selection.tetNodes());
+  times().field += p.field.takeTime();
+}
+
+void ToolContact::select()
+{
+  Parts& p = *parts_;
+  Box3 reach = p.swept;
+  reach.grow(p.margin);
+  p.selection.select(p.start, *p.tissue.tets, *p.tissue.surface, reach);
+  p.tissue_in_tool.lagAreas(p.start, p.selection);
+  p.field.expect(p.selection.tetNodes());
+}
+
+void ToolContact::collect(std::vector<ContactSample>& samples)
+{
+  Parts& p = *parts_;
+  bool hosted = false;
+  {
+    const ScopedTimer timer(times().detect);
+    // The energy stays the same function of x: areas and depths are those of the start whatever
+    // the selection, so more elements only add what had been out of reach.
+    const double motion = largestMotion(p.start, body(0));
+    if (motion > p.margin)
+    {
+      p.margin = std::isfinite(motion) ? 2.0 * motion : std::numeric_limits<double>::max() / 4.0;
+      select();
+    }
+    hosted = p.tool_in_tissue.findHosts(body(0), p.selection.tets());
+  }
+  Timer timer;
+  if (hosted)
+  {
+    p.tool_in_tissue.addSamples(p.field.ready(), samples);
+  }
+  p.tissue_in_tool.addSamples(body(0), samples);
+  const double marched_s = p.field.takeTime();
+  times().field += marched_s;
+  times().respond += timer.seconds() - marched_s;
+}
+
+DepthCurvature ToolContact::curvature(const ContactSample& sample) const
+{
+  return sample.side > 0 ? parts_->tool_in_tissue.curvature(sample)
+                         : parts_->tissue_in_tool.curvature(sample);
+}
+
+void ToolContact::setStiffness(double pa_per_m)
+{
+  parts_->tool_in_tissue.setStiffness(pa_per_m);
+  parts_->tissue_in_tool.setStiffness(pa_per_m);
 }
 
 bool ToolContact::active() const
 {
-  return impl_->active();
+  return !parts_->selection.empty();
 }
 
-double ToolContact::value(const Points& x)
+void ToolContact::forgetField()
 {
-  return contactEnergy(impl_->samplesAt(x)) + impl_->friction().value(x);
-}
-
-void ToolContact::addGradient(const Points& x, Points& gradient)
-{
-  addContactGradient(impl_->samplesAt(x), gradient);
-  impl_->friction().addGradient(x, gradient);
-}
-
-void ToolContact::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
-{
-  impl_->addHessian(x, curvature, hessian);
-  impl_->friction().addHessian(x, hessian);
-}
-
-const std::vector<ContactSample>& ToolContact::samples(const Points& x)
-{
-  return impl_->samplesAt(x);
-}
-
-const std::vector<FrictionForce>& ToolContact::frictionForces(const Points& x)
-{
-  return impl_->friction().forcesAt(x);
+  parts_->field.forget();
 }
 
 const std::vector<double>& ToolContact::depth() const
 {
-  return impl_->depth();
-}
-
-ContactTimes ToolContact::takeTimes()
-{
-  return impl_->takeTimes();
+  return parts_->field.depth();
 }
 
 }  // namespace soft_tissue

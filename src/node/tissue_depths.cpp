@@ -14,7 +14,9 @@ TissueDepths::TissueDepths(const SceneInfo& info, const soft_tissue::SceneConfig
     const soft_tissue::TissueInfo& tissue = info.tissues[i];
     const bool touchable = std::any_of(
         config.contacts.begin(), config.contacts.end(),
-        [&](const soft_tissue::ContactConfig& contact) { return contact.tissue == tissue.name; });
+        [&](const soft_tissue::ContactConfig& contact) {
+          return contact.tissue == tissue.name || contact.other == tissue.name;
+        });
     if (touchable)
     {
       const auto node_count = static_cast<soft_tissue::Index>(tissue.rest.nodes.size());

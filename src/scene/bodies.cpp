@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/geometry/triangle_tree.h"
 
 namespace soft_tissue
 {
@@ -142,6 +144,35 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
   model.densities.assign(rest.tets.size(), material.density_kg_per_m3);
   applyRegions(config, where, model);
   return model;
+}
+
+std::string item(const SceneConfig& config, const char* list, std::size_t index)
+{
+  return config.file + ": " + list + "[" + std::to_string(index) + "]";
+}
+
+double innerRadius(const TetMesh& rest, const BoundarySurface& surface)
+{
+  TriangleTree tree;
+  tree.build(surface.triangles, rest.nodes);
+  double squared = 0.0;
+  Index hint = -1;
+  const auto consider = [&](const Vec3& p) {
+    const TriangleTree::Nearest nearest = tree.nearest(p, rest.nodes, hint);
+    hint = nearest.triangle;
+    squared = std::max(squared, nearest.point.squared_distance);
+  };
+  for (const Tet& tet : rest.tets)
+  {
+    Vec3 middle = Vec3::Zero();
+    for (const Index node : tet)
+    {
+      middle += 0.25 * rest.nodes[node];
+    }
+    consider(middle);
+  }
+  std::for_each(rest.nodes.begin(), rest.nodes.end(), consider);
+  return std::sqrt(squared);
 }
 
 RigidBodyShape makeToolShape(const ToolConfig& config, const std::string& where)

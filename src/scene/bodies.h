@@ -25,6 +25,13 @@ struct TissueModel
  */
 TissueModel makeTissue(const TissueConfig& config, const std::string& where);
 
+/** "<scene file>: list[index]", for messages. */
+std::string item(const SceneConfig& config, const char* list, std::size_t index);
+
+/** Radius of about the largest ball that fits in a body, m: the largest distance of a node or of a
+ * tet's middle from the boundary. */
+double innerRadius(const TetMesh& rest, const BoundarySurface& surface);
+
 /** The tool's solids in its own frame. @throws Error for a bad mesh or size */
 RigidBodyShape makeToolShape(const ToolConfig& config, const std::string& where);
 

@@ -36,10 +36,10 @@ void checkNames(const Item& scene)
   }
 }
 
-/** Puts a pair in the order tissue, tool. */
+/** Puts a pair of a tissue and a tool in this order. */
 void orderPair(const Item& between, const SceneConfig& scene, ContactConfig& contact)
 {
-  for (const std::string& name : {contact.tissue, contact.tool})
+  for (const std::string& name : {contact.tissue, contact.other})
   {
     if (!hasName(scene.tissues, name) && !hasName(scene.tools, name))
     {
@@ -48,16 +48,18 @@ void orderPair(const Item& between, const SceneConfig& scene, ContactConfig& con
   }
   if (hasName(scene.tools, contact.tissue))
   {
-    std::swap(contact.tissue, contact.tool);
+    std::swap(contact.tissue, contact.other);
   }
   if (hasName(scene.tools, contact.tissue))
   {
-    between.rejectValue("must be a tissue and a tool; tools don't touch each other");
+    between.rejectValue("must have a tissue; tools don't touch each other");
   }
-  if (hasName(scene.tissues, contact.tool))
-  {
-    between.rejectValue("contact between tissues is " + std::string(kNotAvailable));
-  }
+}
+
+bool samePair(const ContactConfig& a, const ContactConfig& b)
+{
+  return (a.tissue == b.tissue && a.other == b.other) ||
+         (a.tissue == b.other && a.other == b.tissue);
 }
 
 }  // namespace
@@ -76,7 +78,7 @@ void checkScene(const Item& item, SceneConfig& scene)
     orderPair(between, scene, contact);
     for (std::size_t j = 0; j < i; ++j)
     {
-      if (scene.contacts[j].tissue == contact.tissue && scene.contacts[j].tool == contact.tool)
+      if (samePair(scene.contacts[j], contact))
       {
         between.rejectValue("is the pair of contacts[" + std::to_string(j) + "] too, must be new");
       }

@@ -71,6 +71,7 @@ void Scene::Impl::fillSnapshot(Snapshot& snapshot)
   {
     snapshot.tools[k] = tools_[k].state;
   }
+  snapshot.tissue_pairs = pairs_;
 }
 
 Scene::Scene(const SceneConfig& config) : impl_(std::make_unique<Impl>(config)) {}

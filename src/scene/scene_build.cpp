@@ -4,29 +4,13 @@
 #include "bodies.h"
 #include "scene_impl.h"
 #include "soft_tissue_sim/base/error.h"
-#include "soft_tissue_sim/scene/tissue_field.h"
 
 namespace soft_tissue
 {
 namespace
 {
-/** A tool may start touching, but not with more of its inner radius than this inside tissue. */
-constexpr double kDeepStart = 0.5;
 /** At a tolerance of 1, minimisations end with nodes this share of a tissue's size off. */
 constexpr double kSettled = 1e-3;
-
-std::string item(const SceneConfig& config, const char* list, std::size_t index)
-{
-  return config.file + ": " + list + "[" + std::to_string(index) + "]";
-}
-
-template <typename Configs>
-std::size_t find(const Configs& configs, const std::string& name)
-{
-  const auto found =
-      std::find_if(configs.begin(), configs.end(), [&](const auto& c) { return c.name == name; });
-  return found - configs.begin();
-}
 
 /** Length of the smallest tissue, m. */
 double smallestSize(const std::vector<TissueInfo>& tissues)
@@ -38,19 +22,6 @@ double smallestSize(const std::vector<TissueInfo>& tissues)
     smallest = std::min(smallest, (box.max - box.min).maxCoeff());
   }
   return smallest;
-}
-
-/** The length a tenth of a tissue's boundary edges fall short of, m. */
-double shortEdge(const TissueInfo& tissue)
-{
-  std::vector<double> lengths;
-  for (const Edge& edge : tissue.surface.edges)
-  {
-    lengths.push_back((tissue.rest.nodes[edge[1]] - tissue.rest.nodes[edge[0]]).norm());
-  }
-  const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
-  std::nth_element(lengths.begin(), tenth, lengths.end());
-  return *tenth;
 }
 }  // namespace
 
@@ -164,68 +135,6 @@ void Scene::Impl::addTool(std::size_t index)
   tool_info_.push_back(
       {tool_config.name, {std::move(surface.nodes), std::move(surface.triangles)}});
   tools_.push_back(std::move(tool));
-}
-
-FieldTopology Scene::Impl::fieldTopology(std::size_t tissue) const
-{
-  return {&tissue_info_[tissue].surface, &tissues_[tissue].neighbours};
-}
-
-void Scene::Impl::addContact(std::size_t index)
-{
-  const ContactConfig& contact_config = config_.contacts[index];
-  Contact contact;
-  contact.tissue = find(config_.tissues, contact_config.tissue);
-  contact.tool = find(config_.tools, contact_config.tool);
-  const TissueConfig& tissue_config = config_.tissues[contact.tissue];
-  const TissueInfo& info = tissue_info_[contact.tissue];
-  Tissue& tissue = tissues_[contact.tissue];
-  const RigidBodyShape& shape = tools_[contact.tool].shape;
-  ToolContactOptions options;
-  options.segments = contact_config.response == Response::segment;
-  options.closest_feature = tissue_config.field.depth == DepthKind::closest_feature;
-  options.lazy_field = tissue_config.field.refresh == FieldRefresh::lazy;
-  options.friction = contact_config.friction;
-  options.stiffness_pa_per_m = contact_config.stiffness_pa_per_m.value_or(
-      kAutoStiffness * tissue_config.material.young_modulus_pa / shape.innerRadius());
-  TissueBody body;
-  body.tets = &info.rest.tets;
-  body.surface = &info.surface;
-  body.first_node = tissue.first_node;
-  body.node_count = tissue.node_count;
-  body.short_edge = shortEdge(info);
-  contact.term = std::make_unique<ToolContact>(
-      body, shape, makeDistanceField(tissue_config.field, fieldTopology(contact.tissue)), options);
-  // Where the closest feature is searched for, features of any age start the search as well.
-  const bool lazy_depths = options.lazy_field && !options.closest_feature;
-  contact.refresh = lazy_depths || tissue_config.field.refresh == FieldRefresh::full;
-  contact.max_penetration_m = contact_config.max_penetration_m;
-  contacts_.push_back(std::move(contact));
-}
-
-void Scene::Impl::refuseDeepStart()
-{
-  for (const Contact& contact : contacts_)
-  {
-    const Tool& tool = tools_[contact.tool];
-    contact.term->beginStep(x_, tool.X_WT, tool.X_WT, config_.time_step_s, true);
-    if (!contact.term->active())
-    {
-      continue;
-    }
-    double deepest = 0.0;
-    for (const ContactSample& sample : contact.term->samples(x_))
-    {
-      deepest = std::max(deepest, sample.depth);
-    }
-    if (deepest > kDeepStart * tool.shape.innerRadius())
-    {
-      throw Error(item(config_, "tools", contact.tool) + " '" + config_.tools[contact.tool].name +
-                  "' starts " + std::to_string(1e3 * deepest) + " mm deep inside tissue '" +
-                  config_.tissues[contact.tissue].name +
-                  "', must start outside it: set initial_pose or the first key frame");
-    }
-  }
 }
 
 }  // namespace soft_tissue

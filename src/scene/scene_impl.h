@@ -6,6 +6,7 @@
 
 #include "soft_tissue_sim/base/pose_series.h"
 #include "soft_tissue_sim/base/timer.h"
+#include "soft_tissue_sim/contact/tissue_contact.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
@@ -14,8 +15,9 @@
 
 namespace soft_tissue
 {
-/** The scene itself. Building is in scene_build.cpp, moving in scene_step.cpp, reading out in
- * scene.cpp. */
+/** The scene itself. Building is in scene_build.cpp, its contacts in
+ * scene_pairs.cpp, what they do in scene_contacts.cpp, moving in
+ * scene_step.cpp, reading out in scene.cpp. */
 class Scene::Impl
 {
  public:
@@ -57,8 +59,12 @@ class Scene::Impl
   struct Contact
   {
     std::size_t tissue = 0;
-    std::size_t tool = 0;
-    std::unique_ptr<ToolContact> term;
+    std::size_t other = 0;  ///< index of the tool, or of the other tissue
+    std::unique_ptr<ContactTerm> term;
+    ToolContact* with_tool = nullptr;  ///< the term, as what it is
+    TissueContact* with_tissue = nullptr;
+    std::size_t pair = 0;  ///< of two tissues: index of their TissuePairState
+    double size_m = 0.0;   ///< radius of a ball that fits in the tool, or in both tissues
     bool refresh = true;
     std::optional<double> max_penetration_m;
   };
@@ -71,9 +77,15 @@ class Scene::Impl
   void addTool(std::size_t index);
   void addContact(std::size_t index);
   void makeSolver();
-  FieldTopology fieldTopology(std::size_t tissue) const;
+  void addToolContact(const ContactConfig& config, ContactOptions options, Contact& contact);
+  void addTissueContact(const ContactConfig& config, ContactOptions options, Contact& contact);
+  TissueBody bodyOf(std::size_t tissue) const;
+  std::unique_ptr<DistanceField> fieldOf(std::size_t tissue) const;
   void aimTools();
   int partsOfStep() const;
+  double motionOfTool(const Contact& contact) const;
+  double motionOfTissues(const Contact& contact) const;
+  void beginContacts(double from, double to);
   bool advance(double from, double to, int depth);
   bool minimise(double from, double to);
   NewtonReport findBalance(Points* other);
@@ -87,6 +99,7 @@ class Scene::Impl
 
   std::vector<Tissue> tissues_;
   std::vector<Contact> contacts_;
+  std::vector<TissuePairState> pairs_;
   Points x_, x_rest_, v_;
   Points acceleration_;  ///< of the last step, to start the next one from; moves nothing by itself
   std::vector<double> masses_;

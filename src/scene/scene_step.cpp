@@ -12,29 +12,8 @@ namespace
 {
 /** A minimisation that stops with more of the forces unbalanced has failed: the step is halved. */
 constexpr double kFailedResidual = 0.05;
-/** How far tool and tissue may move past each other in one part of a step, in the tool's inner
- * radius; and the most parts. */
-constexpr double kMostMotion = 1.0;
-constexpr double kMostParts = 64.0;
-
-// Where contact is too deep it is made stiffer, in proportion and a little more, and balance is
-// found anew; in later steps it slowly gets as soft as it was.
+/** How often contact that is too deep is made stiffer within a step. */
 constexpr int kMostStiffenings = 12;
-constexpr double kAhead = 1.2, kLeastStiffening = 1.3, kMostStiffening = 4.0;
-constexpr double kRelaxed = 0.98;
-
-/** How far a corner of a box goes from one pose to another, m. */
-double farthestMotion(const Box3& box, const Pose& from, const Pose& to)
-{
-  double farthest = 0.0;
-  for (int k = 0; k < 8; ++k)
-  {
-    const Vec3 corner((k & 1 ? box.max : box.min).x(), (k & 2 ? box.max : box.min).y(),
-                      (k & 4 ? box.max : box.min).z());
-    farthest = std::max(farthest, (to * corner - from * corner).norm());
-  }
-  return farthest;
-}
 }  // namespace
 
 void Scene::Impl::aimTools()
@@ -78,39 +57,6 @@ const StepReport& Scene::Impl::step()
   finish_s_ = finish.seconds();
   report_.ms.total = 1e3 * step_timer_.seconds();
   return report_;
-}
-
-/** In how many parts the step has to be taken so that no tool gets deeper into tissue in one of
- * them than it finds the way out of. */
-int Scene::Impl::partsOfStep() const
-{
-  double parts = 1.0;
-  for (const Contact& contact : contacts_)
-  {
-    const Tool& tool = tools_[contact.tool];
-    const Tissue& tissue = tissues_[contact.tissue];
-    const auto first = static_cast<std::size_t>(tissue.first_node);
-    double speed = 0.0;
-    for (std::size_t i = first; i < first + tissue.node_count; ++i)
-    {
-      speed = std::max(speed, v_[i].squaredNorm());
-    }
-    const double moved = config_.time_step_s * std::sqrt(speed);
-    const double wanted = (farthestMotion(tool.shape.bounds(), tool.X_WT, tool.X_WT_goal) + moved) /
-                          (kMostMotion * tool.shape.innerRadius());
-    if (!(wanted > parts))
-    {
-      continue;
-    }
-    Box3 reach = transformed(tool.X_WT, tool.shape.bounds());
-    reach.extend(transformed(tool.X_WT_goal, tool.shape.bounds()));
-    reach.grow(moved);
-    const BoundarySurface& surface = tissue_info_[contact.tissue].surface;
-    const bool near = std::any_of(surface.nodes.begin(), surface.nodes.end(),
-                                  [&](Index node) { return reach.contains(x_[first + node]); });
-    parts = near ? wanted : parts;
-  }
-  return static_cast<int>(std::ceil(std::min(parts, kMostParts)));
 }
 
 /** Wall time the step's minimisation still has, s. */
@@ -161,17 +107,7 @@ bool Scene::Impl::minimise(double from, double to)
     terms_.push_back(tissue.elasticity.get());
   }
   const std::size_t first_contact = terms_.size();
-  for (const Contact& contact : contacts_)
-  {
-    const Tool& tool = tools_[contact.tool];
-    contact.term->setStiffening(std::max(1.0, kRelaxed * contact.term->stiffening()));
-    contact.term->beginStep(x_, interpolate(tool.X_WT, tool.X_WT_goal, from),
-                            interpolate(tool.X_WT, tool.X_WT_goal, to), h, contact.refresh);
-    if (contact.term->active())
-    {
-      terms_.push_back(contact.term.get());
-    }
-  }
+  beginContacts(from, to);
   term_seconds_.assign(terms_.size(), 0.0);
   if (h != last_h_)  // other second derivatives of inertia
   {
@@ -230,31 +166,6 @@ NewtonReport Scene::Impl::findBalance(Points* other)
   return newton;
 }
 
-/** Makes contacts stiffer that are deeper than they may be. @return whether there were any */
-bool Scene::Impl::stiffenWhereTooDeep()
-{
-  bool any = false;
-  for (const Contact& contact : contacts_)
-  {
-    if (!contact.max_penetration_m || !contact.term->active())
-    {
-      continue;
-    }
-    const double share = contact.term->deepest(x_) / *contact.max_penetration_m;
-    if (share > 1.0)
-    {
-      contact.term->setStiffening(contact.term->stiffening() *
-                                  std::clamp(kAhead * share, kLeastStiffening, kMostStiffening));
-      any = true;
-    }
-  }
-  if (any)
-  {
-    newton_->forgetMatrix();
-  }
-  return any;
-}
-
 /** A step left far from its end must not add energy: the potential there is at most that of a body
  * that stays where it was. */
 void Scene::Impl::standStillIfBetter(double potential)
@@ -311,47 +222,6 @@ void Scene::Impl::finishStep()
     report_.ms.field += 1e3 * times.field;
     report_.ms.detect += 1e3 * times.detect;
     report_.ms.respond += 1e3 * times.respond;
-  }
-}
-
-void Scene::Impl::collectContacts()
-{
-  for (Tool& tool : tools_)
-  {
-    tool.state.wrench_W = Wrench();
-    tool.state.contacts.clear();
-  }
-  for (const Contact& contact : contacts_)
-  {
-    if (!contact.term->active())
-    {
-      continue;
-    }
-    const auto tissue = static_cast<Index>(contact.tissue);
-    ToolState& tool = tools_[contact.tool].state;
-    for (const ContactSample& sample : contact.term->samples(x_))
-    {
-      // d grows along the gradient for the intruder: the tool, or the tissue that has the tool
-      // around it.
-      const Vec3 normal = -sample.tool_sign * sample.gradient.normalized();
-      tool.contacts.push_back(
-          {sample.position, normal, sample.depth, sample.area, sample.forceOnTool(), tissue});
-      report_.max_penetration_m = std::max(report_.max_penetration_m, sample.depth);
-      ++report_.contacts;
-    }
-    for (const FrictionForce& force : contact.term->frictionForces(x_))
-    {
-      tool.contacts.push_back({force.position, force.normal, 0.0, 0.0, force.on_tool, tissue});
-    }
-  }
-  for (Tool& tool : tools_)
-  {
-    for (const ContactPoint& point : tool.state.contacts)
-    {
-      tool.state.wrench_W.force += point.force_W;
-      tool.state.wrench_W.torque +=
-          (point.position_W - tool.X_WT.translation()).cross(point.force_W);
-    }
   }
 }
 

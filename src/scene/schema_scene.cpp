@@ -38,7 +38,7 @@ const Section<SolverConfig>& solverSection()
 void setPair(ContactConfig& contact, const std::pair<std::string, std::string>& names)
 {
   contact.tissue = names.first;
-  contact.tool = names.second;
+  contact.other = names.second;
 }
 
 const Section<OutputsConfig>& outputsSection()
@@ -56,7 +56,8 @@ const Section<ContactConfig>& contactSection()
 {
   static const Section<ContactConfig> section =
       Section<ContactConfig>("contact", "A pair that may touch; pairs not named pass through.")
-          .required("between", setPair, namePair(), "Who touches whom; each pair once.")
+          .required("between", setPair, namePair(),
+                    "Who touches whom; each pair once. A tissue named twice touches itself.")
           .optional("response", &ContactConfig::response,
                     choice<Response>({{"point", Response::point}, {"segment", Response::segment}},
                                      {"auto"}),
@@ -66,7 +67,8 @@ const Section<ContactConfig>& contactSection()
                     maybe(number(1.0, 1e15, Ends::closed), "auto", true),
                     "Contact pressure per depth; auto: " + shortest(kAutoStiffness) +
                         " E / R, E being the tissue's Young's modulus and R the radius of the "
-                        "largest ball inside the tool.")
+                        "largest ball inside the tool; of two tissues, E of the softer one and the "
+                        "smaller R.")
           .optional("friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
                     "Coulomb coefficient; tissue that sticks creeps by less than 0.1 mm/s.")
           .optional("max_penetration_m", &ContactConfig::max_penetration_m,

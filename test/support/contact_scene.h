@@ -125,7 +125,7 @@ struct ContactScene
   int marches = 0;
 
   ContactScene(const TetMesh& tissue, std::shared_ptr<const RigidShape> shape,
-               const ToolContactOptions& options)
+               const ContactOptions& options)
       : mesh(tissue),
         surface(extractBoundary(Index(mesh.nodes.size()), mesh.tets)),
         node_neighbours(nodeNeighbours(Index(mesh.nodes.size()), mesh.tets))
@@ -148,8 +148,8 @@ inline void addToolWrench(const std::vector<ContactSample>& samples, const Vec3&
 {
   for (const ContactSample& s : samples)
   {
-    force += s.forceOnTool();
-    torque += (s.position - reference).cross(s.forceOnTool());
+    force += s.forceOnFirst();
+    torque += (s.position - reference).cross(s.forceOnFirst());
   }
 }
 
@@ -172,14 +172,14 @@ inline Points shaken(Points x, double size, unsigned seed)
 }
 
 /** The four combinations of response and depth. */
-inline std::vector<ToolContactOptions> contactModels(double stiffness)
+inline std::vector<ContactOptions> contactModels(double stiffness)
 {
-  std::vector<ToolContactOptions> all;
+  std::vector<ContactOptions> all;
   for (const bool segments : {false, true})
   {
     for (const bool closest : {false, true})
     {
-      ToolContactOptions options;
+      ContactOptions options;
       options.segments = segments;
       options.closest_feature = closest;
       options.stiffness_pa_per_m = stiffness;
@@ -189,7 +189,7 @@ inline std::vector<ToolContactOptions> contactModels(double stiffness)
   return all;
 }
 
-inline std::string nameOf(const ToolContactOptions& options)
+inline std::string nameOf(const ContactOptions& options)
 {
   return std::string(options.segments ? "segments" : "points") +
          (options.closest_feature ? ", closest feature" : ", interpolated");

@@ -100,7 +100,7 @@ class ContactTwin
     RigidBodyShape tool;
     tool.add(std::move(shape), Pose::Identity());
     const ContactConfig& config = scene.config().contacts[0];
-    ToolContactOptions options;
+    ContactOptions options;
     options.segments = config.response == Response::segment;
     options.stiffness_pa_per_m = config.stiffness_pa_per_m.value();
     contact_ = std::make_unique<ToolContact>(

@@ -62,7 +62,7 @@ inline void addTool(SceneConfig& config, const ShapeGeometry& shape, const PoseC
   config.tools.push_back(tool);
   ContactConfig contact;
   contact.tissue = "tissue";
-  contact.tool = "tool";
+  contact.other = "tool";
   contact.response = response;
   contact.stiffness_pa_per_m = 5e6;
   config.contacts.push_back(contact);

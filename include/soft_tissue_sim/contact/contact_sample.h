@@ -31,18 +31,23 @@ struct ContactSample
   int count = 0;                        ///< nodes that d depends on
   std::array<Index, kMaxNodes> node{};  ///< rows of x
   std::array<double, kMaxNodes> coefficient{};  ///< intruder weights, minus host weights
-  int tool_sign = 0;                            ///< +1: the tool intrudes; -1: the tissue does
+  /** Who intrudes: +1 the first of the pair, which is the tool where there is one; -1 the second.
+   */
+  int side = 0;
+  Index host = -1;  ///< tet of the host that the point is in; -1: the host is a tool
 
-  /** Force of the tissue on the tool, N, world; it acts at `position`. */
-  Vec3 forceOnTool() const { return -tool_sign * force * gradient; }
+  /** Force on the first of the pair, N, world; it acts at `position`. */
+  Vec3 forceOnFirst() const { return -side * force * gradient; }
+  /** Out of the second of the pair, unit: the way the first is pushed. */
+  Vec3 normal() const { return -side * gradient.normalized(); }
 };
 
-/** Friction between tool and tissue at one place. */
+/** Friction between two bodies at one place. */
 struct FrictionForce
 {
   Vec3 position = Vec3::Zero();  ///< m, world
-  Vec3 normal = Vec3::Zero();    ///< out of the tissue, unit
-  Vec3 on_tool = Vec3::Zero();   ///< N, world
+  Vec3 normal = Vec3::Zero();    ///< out of the second, unit
+  Vec3 on_first = Vec3::Zero();  ///< N, world
 };
 
 }  // namespace soft_tissue

@@ -6,16 +6,18 @@
 
 namespace soft_tissue
 {
-/** The body a tool presses, as the contact sees it; everything pointed to outlives the contact. */
+/** A tissue as contact sees it; everything pointed to outlives the contact. */
 struct TissueBody
 {
   const std::vector<Tet>* tets = nullptr;
   const BoundarySurface* surface = nullptr;
   Index first_node = 0;  ///< row of the body's node 0 in the positions of the whole scene
   Index node_count = 0;
-  /** Length of short boundary edges at rest, m: what longer edges of a tool are cut to for their
+  /** Length of short boundary edges at rest, m: what longer edges of others are cut to for their
    * quadrature; 0: not at all. */
   double short_edge = 0.0;
+  /** Nodes at rest, m, N x 3; needed where the body touches itself. */
+  const Points* rest = nullptr;
 };
 
 }  // namespace soft_tissue

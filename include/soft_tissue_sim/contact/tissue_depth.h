@@ -40,14 +40,25 @@ class TissueDepth
   bool evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
                 const DistanceField& field, ContactSample& sample) const;
 
+  /**
+   * The same at a point of the tissue's own surface that has come to be inside it.
+   * @param rest     the body's nodes at rest, N x 3, m
+   * @param rest_of  the point itself at rest, m: only boundary that is there no farther from the
+   *                 place in the tet than from this is what the point may have come through
+   */
+  bool evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
+                    const DistanceField& field, const Points& rest, const Vec3& rest_of,
+                    ContactSample& sample) const;
+
   /** What the second derivative of a sample's depth needs; x as it was evaluated at. */
   DepthCurvature curvature(const ContactSample& sample, const Points& x) const;
 
  private:
   bool interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,
                    const DistanceField& field, ContactSample& sample) const;
+  template <typename Allowed>
   bool findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
-                   ContactSample& sample) const;
+                   const Allowed& allowed, ContactSample& sample) const;
 
   TissueBody tissue_;
   bool closest_feature_;

@@ -161,13 +161,13 @@ enum class Response
 };
 
 /** Contact stiffness that a scene leaves to us, in the tissue's Young's modulus over the tool's
- * inner radius. */
+ * inner radius; of two tissues the softer one's modulus and the smaller inner radius. */
 constexpr double kAutoStiffness = 20.0;
 
 struct ContactConfig
 {
   std::string tissue;
-  std::string tool;
+  std::string other;  ///< a tool, another tissue, or the same tissue, which then touches itself
   Response response = Response::segment;
   std::optional<double> stiffness_pa_per_m;  ///< empty: kAutoStiffness
   double friction = 0.0;                     ///< Coulomb coefficient

@@ -45,9 +45,10 @@ struct StepReport
 };
 
 /**
- * One contact sample between a tool and a tissue, world frame. Forces of all samples add up to the
- * tool's wrench; where an edge crosses the surface a sample of no depth and area carries a small
- * part of it, and friction has samples of its own without them.
+ * One contact sample between a tool and a tissue, or between the first and the second tissue of a
+ * pair, world frame. Forces of all samples add up to what acts on the tool, or on the first; where
+ * an edge crosses the surface a sample of no depth and area carries a small part of it, and
+ * friction has samples of its own without them.
  */
 struct ContactPoint
 {
@@ -56,7 +57,8 @@ struct ContactPoint
   double depth = 0.0;  ///< m
   double area = 0.0;   ///< m^2 of the surface it stands for
   Vec3 force_W;        ///< N, of the tissue on the tool
-  Index tissue = -1;   ///< index of the tissue
+  Index tissue = -1;   ///< index of the tissue; of a pair, of the one whose depth it is
+  Index tet = -1;  ///< of that tissue, which the point is in; -1 where it is its surface in a tool
 };
 
 /** Force and moment of all tissues on a tool, at the tool frame's origin, in world axes. */
@@ -90,6 +92,13 @@ struct ToolState
   std::vector<ContactPoint> contacts;
 };
 
+/** Contact of two tissues, or of one with itself. */
+struct TissuePairState
+{
+  Index first = -1, second = -1;       ///< indices of the tissues
+  std::vector<ContactPoint> contacts;  ///< forces are those on the first
+};
+
 /** A tool's surface for display, tool frame. */
 struct ToolInfo
 {
@@ -104,6 +113,7 @@ struct Snapshot
   std::uint64_t state_hash = 0;
   std::vector<TissueState> tissues;
   std::vector<ToolState> tools;
+  std::vector<TissuePairState> tissue_pairs;  ///< as the scene file names them
 };
 
 /** Bodies, tools and the one potential they move in. Not thread safe: one thread owns it. */

@@ -44,7 +44,7 @@ TetMesh ridge()
 
 TEST(ToolContactDetection, CostsNothingWithoutOverlap)
 {
-  for (const ToolContactOptions& options : contactModels(1e6))
+  for (const ContactOptions& options : contactModels(1e6))
   {
     ContactScene scene(tissue(), makeSphere(0.004), options);
     const Points& x = scene.mesh.nodes;
@@ -79,7 +79,7 @@ TEST(ToolContactDetection, MarchesOncePerStepAndKeepsTheFieldWhenAsked)
 
 TEST(ToolContactDetection, FindsAllContactsWhenTheTissueMovesFurtherThanExpected)
 {
-  for (const ToolContactOptions& options : contactModels(1e6))
+  for (const ContactOptions& options : contactModels(1e6))
   {
     ContactScene scene(tissue(), makeSphere(0.004), options);
     Points moved = scene.mesh.nodes;
@@ -99,7 +99,7 @@ TEST(ToolContactDetection, CoversExactlyTheLengthOfEdgesInTheTissue)
 {
   for (const bool closest : {false, true})
   {
-    ToolContactOptions options = contactModels(1e6)[2];
+    ContactOptions options = contactModels(1e6)[2];
     options.closest_feature = closest;
     ContactScene scene(tissue(), makeCapsule(0.004, 0.01), options);
     const Points x = shaken(scene.mesh.nodes, 0.0006, 51);
@@ -110,7 +110,7 @@ TEST(ToolContactDetection, CoversExactlyTheLengthOfEdgesInTheTissue)
     double area = 0.0;
     for (const ContactSample& s : scene.contact->samples(x))
     {
-      area += s.tool_sign > 0 ? s.area : 0.0;
+      area += s.side > 0 ? s.area : 0.0;
     }
     double wanted = 0.0;
     const ToolSurface surface = sampleToolSurface(scene.tool);
@@ -131,7 +131,7 @@ TEST(ToolContactDetection, CoversExactlyTheLengthOfEdgesInTheTissue)
 
 TEST(ToolContactDetection, SeparatesEdgesThatCrossWithoutAnyPointInside)
 {
-  ToolContactOptions options = contactModels(1e6)[1];  // points
+  ContactOptions options = contactModels(1e6)[1];  // points
   Pose X = Pose::Identity();
   X.linear() = Eigen::AngleAxisd(0.25 * 3.14159265358979323846, Vec3::UnitX()).toRotationMatrix();
   const double half_diagonal = 0.5 * std::sqrt(2.0) * 0.3;
@@ -155,7 +155,7 @@ TEST(ToolContactDetection, SeparatesEdgesThatCrossWithoutAnyPointInside)
 
 TEST(ToolContactDetection, PushesADeepToolAndAnEngulfedTissueOut)
 {
-  for (const ToolContactOptions& options : contactModels(1e6))
+  for (const ContactOptions& options : contactModels(1e6))
   {
     ContactScene deep(slab(Vec3::Zero(), {0.03, 0.03, 0.02}, 6, 6, 4), makeSphere(0.002), options);
     deep.begin(deep.mesh.nodes, at({0.0147, 0.0152, 0.0155}));  // nearest to the top
@@ -174,7 +174,7 @@ TEST(ToolContactDetection, PushesADeepToolAndAnEngulfedTissueOut)
 
 TEST(ToolContactDetection, StaysFiniteWithFlatAndInvertedTets)
 {
-  for (const ToolContactOptions& options : contactModels(1e6))
+  for (const ContactOptions& options : contactModels(1e6))
   {
     ContactScene scene(tissue(), makeSphere(0.004), options);
     Points x = scene.mesh.nodes;

@@ -18,7 +18,7 @@ TetMesh tissue()
   return slab(Vec3::Zero(), {0.021, 0.021, 0.014}, 3, 3, 2);
 }
 
-ToolContactOptions rubbing(ToolContactOptions options)
+ContactOptions rubbing(ContactOptions options)
 {
   options.friction = kCoefficient;
   return options;
@@ -31,7 +31,7 @@ struct Rub
   Points start;
   Pose X_before = at(kTool), X_after;
 
-  Rub(const ToolContactOptions& options, const Vec3& moved)
+  Rub(const ContactOptions& options, const Vec3& moved)
       : with(tissue(), makeSphere(0.006), rubbing(options)),
         without(tissue(), makeSphere(0.006), options),
         start(shaken(with.mesh.nodes, 0.0004, 51)),
@@ -60,7 +60,7 @@ const std::vector<double> kSlides = {2e-7, 1e-6, 2e-4};
 
 TEST(Friction, DerivativesAreThoseOfItsPotential)
 {
-  for (const ToolContactOptions& options : contactModels(1e6))
+  for (const ContactOptions& options : contactModels(1e6))
   {
     for (const double slide : kSlides)
     {
@@ -105,7 +105,7 @@ TEST(Friction, DerivativesAreThoseOfItsPotential)
 
 TEST(Friction, IsCoulombsForceAgainstTheSlideAndBalanced)
 {
-  for (const ToolContactOptions& options : contactModels(1e6))
+  for (const ContactOptions& options : contactModels(1e6))
   {
     const Vec3 way(0.8, -0.6, 0.0);
     Rub rub(options, 1e-4 * way);
@@ -120,11 +120,11 @@ TEST(Friction, IsCoulombsForceAgainstTheSlideAndBalanced)
     double sum = 0.0;
     for (const FrictionForce& f : rub.with.contact->frictionForces(rub.start))
     {
-      EXPECT_NEAR(f.on_tool.dot(f.normal), 0.0, 1e-12);
-      EXPECT_LT(f.on_tool.dot(way), 0.0) << "the tissue holds the tool back";
-      sum += f.on_tool.norm();
-      force += f.on_tool;
-      moment += f.position.cross(f.on_tool);
+      EXPECT_NEAR(f.on_first.dot(f.normal), 0.0, 1e-12);
+      EXPECT_LT(f.on_first.dot(way), 0.0) << "the tissue holds the tool back";
+      sum += f.on_first.norm();
+      force += f.on_first;
+      moment += f.position.cross(f.on_first);
     }
     ASSERT_GT(pressed, 0.0);
     EXPECT_NEAR(sum, kCoefficient * pressed, 1e-9 * pressed) << nameOf(options);
@@ -150,7 +150,7 @@ TEST(Friction, OfATissueThatIsCarriedAlongIsZero)
   ASSERT_FALSE(rub.with.contact->frictionForces(carried).empty());
   for (const FrictionForce& f : rub.with.contact->frictionForces(carried))
   {
-    EXPECT_LT(f.on_tool.norm(), 1e-10);
+    EXPECT_LT(f.on_first.norm(), 1e-10);
   }
   // A turning tool takes its points of contact along as well.
   const Pose turn = at(kTool) * Eigen::AngleAxisd(0.01, Vec3::UnitZ());
@@ -158,7 +158,7 @@ TEST(Friction, OfATissueThatIsCarriedAlongIsZero)
   double torque = 0.0;
   for (const FrictionForce& f : rub.with.contact->frictionForces(rub.start))
   {
-    torque += (f.position - kTool).cross(f.on_tool).z();
+    torque += (f.position - kTool).cross(f.on_first).z();
   }
   EXPECT_LT(torque, -1e-9) << "and is held back by the tissue";
 }

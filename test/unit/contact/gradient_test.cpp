@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
+#include "support/contact_derivatives.h"
 #include "support/contact_scene.h"
-#include "support/finite_difference.h"
 
 namespace soft_tissue::test
 {
@@ -24,34 +24,7 @@ Pose randomPress(RandomGeometry& random)
   return X;
 }
 
-/** Largest error of directional derivatives, over the gradient's norm. */
-double gradientError(ToolContact& contact, const Points& x, RandomGeometry& random)
-{
-  const Eigen::VectorXd gradient = gradientOf(contact, x);
-  double worst = 0.0;
-  for (int direction = 0; direction < 4; ++direction)
-  {
-    Eigen::VectorXd way(3 * x.size());
-    for (Eigen::Index k = 0; k < way.size(); ++k)
-    {
-      way[k] = random.uniform(-1.0, 1.0);
-    }
-    const double difference = derivative(
-        [&](double s) {
-          Points moved = x;
-          for (Eigen::Index k = 0; k < way.size(); ++k)
-          {
-            moved[k / 3][k % 3] += s * way[k];
-          }
-          return contact.value(moved);
-        },
-        1e-8);
-    worst = std::max(worst, std::abs(difference - gradient.dot(way)) / gradient.norm());
-  }
-  return worst;
-}
-
-double worstOver(const std::shared_ptr<const RigidShape>& shape, const ToolContactOptions& options)
+double worstOver(const std::shared_ptr<const RigidShape>& shape, const ContactOptions& options)
 {
   double worst = 0.0;
   for (unsigned seed = 0; seed < 4; ++seed)
@@ -78,7 +51,7 @@ TEST(ContactGradient, IsTheDerivativeOfTheValue)
   const std::vector<std::shared_ptr<const RigidShape>> shapes = {
       makeMeshShape(bent.nodes, bent.triangles, "bent tool"), makeSphere(0.004),
       makeCapsule(0.003, 0.01), makeBox({0.006, 0.005, 0.008})};
-  for (const ToolContactOptions& options : contactModels(1e6))
+  for (const ContactOptions& options : contactModels(1e6))
   {
     double worst = 0.0;
     for (const auto& shape : shapes)
@@ -107,7 +80,7 @@ TEST(ContactGradient, AddsToWhatIsThere)
 
 TEST(ContactGradient, BalancesTheToolInForceAndMoment)
 {
-  for (const ToolContactOptions& options : contactModels(1e6))
+  for (const ContactOptions& options : contactModels(1e6))
   {
     RandomGeometry random(31);
     ContactScene scene(tissue(), makeCapsule(0.003, 0.01), options);

@@ -15,7 +15,7 @@ constexpr double kSide = 0.01;      // m, of the punch
 constexpr double kTop = 0.02;       // m
 
 /** Upward force on a punch in a slab of n x n x 2 cells, from the samples of one direction. */
-double punchForce(const ToolContactOptions& options, int n, int tool_sign)
+double punchForce(const ContactOptions& options, int n, int side)
 {
   const Vec3 low(-0.02, -0.02, 0.0);
   ContactScene scene(slab(low, {0.02, 0.02, kTop}, n, n, 2), makeBox({kSide, kSide, kSide}),
@@ -25,12 +25,12 @@ double punchForce(const ToolContactOptions& options, int n, int tool_sign)
   double force = 0.0;
   for (const ContactSample& s : scene.contact->samples(x))
   {
-    force += s.tool_sign == tool_sign ? s.forceOnTool().z() : 0.0;
+    force += s.side == side ? s.forceOnFirst().z() : 0.0;
   }
   return force;
 }
 
-void print(const ToolContactOptions& options, const char* what, int n, double force, double exact)
+void print(const ContactOptions& options, const char* what, int n, double force, double exact)
 {
   std::printf("  %-27s %s, %2d x %2d x 2 cells: %.5f N, exact %.5f N (%+.2f %%)\n",
               nameOf(options).c_str(), what, n, n, force, exact, 100.0 * (force / exact - 1.0));
@@ -42,7 +42,7 @@ TEST(FlatPunch, IsPushedOutByStiffnessTimesDepthTimesArea)
 {
   const double exact =
       0.5 * kStiffness * (kPressed * kSide * kSide + 4.0 * kSide * 0.5 * kPressed * kPressed);
-  for (const ToolContactOptions& options : contactModels(kStiffness))
+  for (const ContactOptions& options : contactModels(kStiffness))
   {
     // The walls reach only a fraction of their triangles deep: points see them coarsely.
     const double tolerance = options.segments ? 0.05 : 0.15;
@@ -56,7 +56,7 @@ TEST(FlatPunch, IsPushedOutByStiffnessTimesDepthTimesArea)
 TEST(FlatPunch, PushesTissueDownAndConvergesWithItsMesh)
 {
   const double width = kSide - 2.0 * kPressed;
-  for (const ToolContactOptions& options : contactModels(kStiffness))
+  for (const ContactOptions& options : contactModels(kStiffness))
   {
     const double exact = 0.5 * kStiffness * kPressed * width * width;
     const double coarse = punchForce(options, 12, -1);

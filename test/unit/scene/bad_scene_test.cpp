@@ -134,8 +134,8 @@ std::vector<BadScene> badKeys()
       {"time_s: 1, ", "",
        "tools[0].pose_source.keyframes[1].time_s: missing, must be a number in [0, 1e+06]"},
       {"between: [liver, probe], ", "",
-       "contacts[0].between: missing, must be a list of 2 names: a tissue and a tool, in any "
-       "order"},
+       "contacts[0].between: missing, must be a list of 2 names: a tissue and a tool or tissue, in "
+       "any order"},
       {"tissues:", "tissues: liver\nx:",
        "x: unknown key. Known: time_step_s, gravity_m_per_s2, materials, solver, tissues, tools, "
        "contacts, outputs"},

@@ -190,12 +190,12 @@ TEST_F(ConfigTest, ContactsArriveInEitherOrder)
   const SceneConfig scene = load(kFullest);
   ASSERT_EQ(scene.contacts.size(), 3U);
   EXPECT_EQ(scene.contacts[0].tissue, "liver");
-  EXPECT_EQ(scene.contacts[0].tool, "ball");
+  EXPECT_EQ(scene.contacts[0].other, "ball");
   EXPECT_EQ(scene.contacts[0].response, ContactConfig().response);
   EXPECT_EQ(scene.contacts[0].friction, ContactConfig().friction);
   EXPECT_FALSE(scene.contacts[0].stiffness_pa_per_m.has_value());
   EXPECT_EQ(scene.contacts[1].tissue, "kidney");
-  EXPECT_EQ(scene.contacts[1].tool, "rod");
+  EXPECT_EQ(scene.contacts[1].other, "rod");
   EXPECT_EQ(scene.contacts[1].response, Response::point);
   EXPECT_EQ(scene.contacts[1].stiffness_pa_per_m, 2e6);
   EXPECT_EQ(scene.contacts[1].friction, 0.3);

@@ -42,10 +42,12 @@ TEST(SchemaDocsTest, RowsTellTypeUnitRangeDefaultAndMeaning)
 {
   EXPECT_EQ(row("scene file", "time_step_s"),
             "| `time_step_s` | number | s | in (0, 1] | 0.005 | Simulated time of one step. |");
-  EXPECT_EQ(row("contact", "stiffness_pa_per_m"),
-            "| `stiffness_pa_per_m` | number or auto | Pa/m | in [1, 1e+15] | auto | Contact "
-            "pressure per depth; auto: 20 E / R, E being the tissue's Young's modulus and R the "
-            "radius of the largest ball inside the tool. |");
+  EXPECT_EQ(
+      row("contact", "stiffness_pa_per_m"),
+      "| `stiffness_pa_per_m` | number or auto | Pa/m | in [1, 1e+15] | auto | Contact "
+      "pressure per depth; auto: 20 E / R, E being the tissue's Young's modulus and R the "
+      "radius of the largest ball inside the tool; of two tissues, E of the softer one and the "
+      "smaller R. |");
   EXPECT_EQ(row("capsule", "radius_m"),
             "| `radius_m` | number | m | in (0, 10) | **required** | Radius of the ball. |");
   EXPECT_EQ(row("tool", "pose_source"),

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+
+#include "soft_tissue_sim/contact/contact_term.h"
+#include "soft_tissue_sim/contact/tissue_body.h"
+#include "soft_tissue_sim/field/distance_field.h"
+
+namespace soft_tissue
+{
+/**
+ * Contact of two tissues, or of one with itself: the surface of each in the depth of the other.
+ *
+ * Of one body, an element of the surface can't be in tets that it shares a node with. Forces and
+ * moments of both sum to zero, those of friction up to how far things slide in a step.
+ */
+class TissueContact : public ContactTerm
+{
+ public:
+  /** A tissue and its field, for this contact alone. */
+  struct Side
+  {
+    TissueBody body;
+    std::unique_ptr<DistanceField> field;
+  };
+
+  TissueContact(Side first, Side second, const ContactOptions& options);
+  /** Of a body with itself; @throws Error unless it has TissueBody::rest */
+  TissueContact(Side self, const ContactOptions& options);
+  ~TissueContact() override;
+
+  /**
+   * Takes the state a step starts from.
+   * @param x        positions at the start of the step
+   * @param step_s   length of the step, > 0
+   * @param refresh  march the nodal depths anew on x; false keeps those there are
+   */
+  void beginStep(const Points& x, double step_s, bool refresh);
+
+  bool active() const override;
+  void forgetField() override;
+
+ private:
+  void collect(std::vector<ContactSample>& samples) override;
+  DepthCurvature curvature(const ContactSample& sample) const override;
+  void setStiffness(double pa_per_m) override;
+  void lagFriction(const Points& x, double step_s, bool refresh);
+  void lagPlaces(const Points& x, bool refresh);
+  void addGrip(const ContactSample& sample, const Points& x);
+
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace soft_tissue

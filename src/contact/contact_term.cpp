@@ -1,0 +1,119 @@
+#include "soft_tissue_sim/contact/contact_term.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "friction.h"
+#include "soft_tissue_sim/contact/depth_curvature.h"
+#include "soft_tissue_sim/contact/sample_sums.h"
+
+namespace soft_tissue
+{
+ContactTerm::ContactTerm(const ContactOptions& options, const std::vector<NodeRange>& ranges)
+    : options_(options),
+      ranges_(ranges),
+      bodies_(ranges.size()),
+      friction_(std::make_unique<Friction>(options.friction))
+{}
+
+ContactTerm::~ContactTerm() = default;
+
+void ContactTerm::takeBodies(const Points& x)
+{
+  for (std::size_t k = 0; k < ranges_.size(); ++k)
+  {
+    const auto first = x.begin() + ranges_[k].first;
+    bodies_[k].assign(first, first + ranges_[k].count);
+  }
+}
+
+bool ContactTerm::haveSamplesAt(const Points& x) const
+{
+  bool same = have_samples_;
+  for (std::size_t k = 0; k < ranges_.size() && same; ++k)
+  {
+    same = std::memcmp(bodies_[k].data(), x.data() + ranges_[k].first,
+                       ranges_[k].count * sizeof(Vec3)) == 0;
+  }
+  return same;
+}
+
+void ContactTerm::forgetSamples()
+{
+  have_samples_ = false;
+  samples_.clear();
+}
+
+const std::vector<ContactSample>& ContactTerm::samples(const Points& x)
+{
+  if (active() && !haveSamplesAt(x))
+  {
+    takeBodies(x);
+    samples_.clear();
+    collect(samples_);
+    have_samples_ = true;
+  }
+  return samples_;
+}
+
+double ContactTerm::value(const Points& x)
+{
+  return contactEnergy(samples(x)) + friction_->value(x);
+}
+
+void ContactTerm::addGradient(const Points& x, Points& gradient)
+{
+  addContactGradient(samples(x), gradient);
+  friction_->addGradient(x, gradient);
+}
+
+// Clip points are left out: what they add is what the quadrature is off, and small.
+void ContactTerm::addHessian(const Points& x, Curvature kind, BlockMatrix& hessian)
+{
+  for (const ContactSample& sample : samples(x))
+  {
+    if (sample.stiffness_area == 0.0)
+    {
+      continue;
+    }
+    if (kind == Curvature::positive)
+    {
+      addLinearStiffness(sample, hessian);
+    }
+    else
+    {
+      addStiffness(sample, curvature(sample), hessian);
+    }
+  }
+  friction_->addHessian(x, hessian);
+}
+
+void ContactTerm::setStiffening(double factor)
+{
+  have_samples_ = have_samples_ && factor == stiffening_;
+  stiffening_ = factor;
+  setStiffness(factor * options_.stiffness_pa_per_m);
+}
+
+double ContactTerm::deepest(const Points& x)
+{
+  double deepest = 0.0;
+  for (const ContactSample& sample : samples(x))
+  {
+    deepest = std::max(deepest, sample.depth);
+  }
+  return deepest;
+}
+
+const std::vector<FrictionForce>& ContactTerm::frictionForces(const Points& x)
+{
+  return friction_->forcesAt(x);
+}
+
+ContactTimes ContactTerm::takeTimes()
+{
+  return std::exchange(times_, ContactTimes());
+}
+
+}  // namespace soft_tissue

@@ -1,0 +1,80 @@
+#include "surface_elements.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace soft_tissue
+{
+namespace
+{
+/** The triangles that have each of some parts, by the parts that each triangle has. */
+Adjacency trianglesOf(std::size_t count, const std::vector<std::array<Index, 3>>& parts)
+{
+  Adjacency rows;
+  rows.offsets.assign(count + 1, 0);
+  for (const auto& three : parts)
+  {
+    for (const Index part : three)
+    {
+      ++rows.offsets[part + 1];
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    rows.offsets[i + 1] += rows.offsets[i];
+  }
+  rows.items.resize(3 * parts.size());
+  std::vector<Index> fill(rows.offsets.begin(), rows.offsets.end() - 1);
+  for (std::size_t t = 0; t < parts.size(); ++t)
+  {
+    for (const Index part : parts[t])
+    {
+      rows.items[fill[part]++] = static_cast<Index>(t);
+    }
+  }
+  return rows;
+}
+}  // namespace
+
+int cellsOf(double length, double cell)
+{
+  constexpr double kMostCells = 1000.0;
+  return cell > 0.0 ? static_cast<int>(std::min(length / cell, kMostCells)) + 1 : 1;
+}
+
+SurfaceElements::SurfaceElements(const BoundarySurface& surface, bool edges) : surface_(&surface)
+{
+  if (edges)
+  {
+    for (const Edge& edge : surface.edges)
+    {
+      elements_.push_back({{edge[0], edge[1]}});
+    }
+    triangles_ = trianglesOf(surface.edges.size(), surface.triangle_edges);
+    return;
+  }
+  std::vector<std::array<Index, 3>> slots;
+  for (const Triangle& t : surface.triangles)
+  {
+    slots.push_back({surface.node_slot[t[0]], surface.node_slot[t[1]], surface.node_slot[t[2]]});
+  }
+  for (const Index node : surface.nodes)
+  {
+    elements_.push_back({{node, node}});
+  }
+  triangles_ = trianglesOf(surface.nodes.size(), slots);
+}
+
+void SurfaceElements::lag(Index number, const Points& x, double cell)
+{
+  SurfaceElement& element = elements_[number];
+  element.area = 0.0;
+  for (const Index* i = triangles_.begin(number); i != triangles_.end(number); ++i)
+  {
+    const Triangle& t = surface_->triangles[*i];
+    element.area += (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm() / 6.0;
+  }
+  element.cells = cellsOf((x[element.nodes[1]] - x[element.nodes[0]]).norm(), cell);
+}
+
+}  // namespace soft_tissue

@@ -1,0 +1,280 @@
+#include "surface_in_tissue.h"
+
+#include <algorithm>
+
+#include "moving_ends.h"
+#include "quadrature.h"
+#include "soft_tissue_sim/geometry/clip.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** Barycentric weights this far below zero count as inside: shared faces leave no gap. */
+constexpr double kInside = -1e-12;
+/** Pieces of an edge with less than this share of it between them are one stretch. */
+constexpr double kTouching = 1e-9;
+}  // namespace
+
+SurfaceInTissue::SurfaceInTissue(const TissueBody& host, const Intruder& intruder,
+                                 const ContactOptions& options)
+    : host_(host),
+      intruder_(intruder),
+      segments_(options.segments),
+      closest_feature_(options.closest_feature),
+      stiffness_(options.stiffness_pa_per_m),
+      depth_(host, options.closest_feature)
+{}
+
+bool SurfaceInTissue::findHosts(const std::vector<SurfaceElement>& elements, const Points& nodes,
+                                const Points& x, const std::vector<ElementPair>& candidates)
+{
+  elements_ = &elements;
+  nodes_ = &nodes;
+  x_ = &x;
+  hosts_.clear();
+  for (const Index element : held_)
+  {
+    point_host_[element] = -1;
+  }
+  held_.clear();
+  point_host_.resize(elements.size(), -1);
+  edge_hosts_.reset(static_cast<Index>(elements.size()));
+  for (std::size_t i = 0; i < candidates.size();)
+  {
+    const Index t = candidates[i].second;
+    const Tet& tet = (*host_.tets)[t];
+    Box3 box;
+    for (const Index node : tet)
+    {
+      box.extend(x[node]);
+    }
+    bool tried = false, flat = false;  // a flat tet holds nothing
+    for (; i < candidates.size() && candidates[i].second == t; ++i)
+    {
+      const Index element = candidates[i].first;
+      const Vec3& a = end(element, 0);
+      const Vec3& b = end(element, 1);
+      if (flat || !(a.cwiseMin(b).array() <= box.max.array()).all() ||
+          !(a.cwiseMax(b).array() >= box.min.array()).all())
+      {
+        continue;
+      }
+      if (!tried)
+      {
+        tried = true;
+        const auto coords = tetCoordinates(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
+        flat = !coords;
+        if (flat)
+        {
+          continue;
+        }
+        hosts_.push_back({t, *coords});
+      }
+      hostElement(element, static_cast<Index>(hosts_.size()) - 1);
+    }
+  }
+  std::sort(held_.begin(), held_.end());
+  return !held_.empty();
+}
+
+void SurfaceInTissue::hostElement(Index element, Index number)
+{
+  const TetCoordinates& coords = hosts_[number].coords;
+  if (!segments_)
+  {
+    if (point_host_[element] < 0 && coords.weights(end(element, 0)).minCoeff() >= kInside)
+    {
+      point_host_[element] = number;
+      held_.push_back(element);
+    }
+    return;
+  }
+  const auto piece = clipSegment(end(element, 0), end(element, 1), coords);
+  if (piece && piece->lambda1 < piece->lambda2)
+  {
+    if (point_host_[element] < 0)
+    {
+      point_host_[element] = number;
+      held_.push_back(element);
+    }
+    edge_hosts_.add(element, number, {piece->lambda1, piece->lambda2});
+  }
+}
+
+void SurfaceInTissue::addSamples(const DistanceField& field, std::vector<ContactSample>& samples)
+{
+  if (held_.empty())
+  {
+    return;
+  }
+  depth_.prepare(*x_);
+  for (const Index element : held_)
+  {
+    if (!segments_)
+    {
+      addPoint(element, field, samples);
+    }
+    else if (closest_feature_)
+    {
+      addStretches(element, field, samples);
+    }
+    else
+    {
+      addPieces(element, field, samples);
+    }
+  }
+}
+
+void SurfaceInTissue::addPoint(Index element, const DistanceField& field,
+                               std::vector<ContactSample>& samples)
+{
+  ContactSample sample;
+  if (measure({element, 0.0, &hosts_[point_host_[element]], (*elements_)[element].area}, field,
+              sample))
+  {
+    samples.push_back(sample);
+  }
+}
+
+// Interpolated depth is linear on each piece and continuous from piece to piece: two Gauss points
+// integrate its square and the gradient of that exactly, however the pieces move.
+void SurfaceInTissue::addPieces(Index edge, const DistanceField& field,
+                                std::vector<ContactSample>& samples)
+{
+  for (const SegmentPiece& piece : edge_hosts_.disjointPieces(edge))
+  {
+    forEachPoint(kGauss2, piece.where, [&](double parameter, double weight) {
+      ContactSample sample;
+      if (measure({edge, parameter, &hosts_[piece.host], weight * (*elements_)[edge].area}, field,
+                  sample))
+      {
+        samples.push_back(sample);
+      }
+    });
+  }
+}
+
+// A true distance is not linear across a tet. The rule is laid over whole stretches inside the
+// tissue, so only the tissue's surface moves its points, and MovingEnds accounts for that. Long
+// edges are cut in fixed cells first: where a stretch falls apart only the rule of one cell jumps.
+void SurfaceInTissue::addStretches(Index edge, const DistanceField& field,
+                                   std::vector<ContactSample>& samples)
+{
+  const std::vector<SegmentPiece>& pieces = edge_hosts_.disjointPieces(edge);
+  const int cells = (*elements_)[edge].cells;
+  for (std::size_t first = 0, last = 0; first < pieces.size(); first = ++last)
+  {
+    while (last + 1 < pieces.size() &&
+           pieces[last + 1].where.begin - pieces[last].where.end < kTouching)
+    {
+      ++last;
+    }
+    const Interval inside = {pieces[first].where.begin, pieces[last].where.end};
+    std::size_t at = first;
+    const auto sampleAt = [&](double parameter, double area, ContactSample& sample) {
+      while (at < last && pieces[at].where.end < parameter)
+      {
+        ++at;
+      }
+      return measure({edge, parameter, &hosts_[pieces[at].host], area}, field, sample);
+    };
+    const auto cellOf = [&](double parameter) { return static_cast<int>(parameter * cells); };
+    double begin = inside.begin;
+    for (int cell = cellOf(begin); begin < inside.end; ++cell)
+    {
+      const double end = std::min((cell + 1.0) / cells, inside.end);
+      if (end > begin)  // rounding may put a begin on the cell's end
+      {
+        addStretch(edge, {begin, end}, begin > 0.0 && begin == inside.begin,
+                   end < 1.0 && end == inside.end, sampleAt, samples);
+        begin = end;
+      }
+    }
+  }
+}
+
+template <typename SampleAt>
+void SurfaceInTissue::addStretch(Index edge, const Interval& stretch, bool begin_moves,
+                                 bool end_moves, const SampleAt& sampleAt,
+                                 std::vector<ContactSample>& samples) const
+{
+  const double area = (*elements_)[edge].area;
+  MovingEnds ends(stretch, edgeVector(edge));
+  ContactSample begin;
+  if (begin_moves)
+  {
+    sampleAt(stretch.begin, area, begin);
+  }
+  forEachPoint(kGauss2, stretch, [&](double parameter, double weight) {
+    ContactSample sample;
+    if (sampleAt(parameter, weight * area, sample))
+    {
+      ends.count(sample, parameter);
+      samples.push_back(sample);
+    }
+  });
+  if (begin_moves && ends.close(begin, true))
+  {
+    samples.push_back(begin);
+  }
+  ContactSample end;
+  if (end_moves)
+  {
+    sampleAt(stretch.end, area, end);
+    if (ends.close(end, false))
+    {
+      samples.push_back(end);
+    }
+  }
+}
+
+/** Where the point of an element is while its body is at rest. */
+Vec3 SurfaceInTissue::restPoint(const Place& place) const
+{
+  const auto& nodes = (*elements_)[place.element].nodes;
+  const Vec3& a = (*intruder_.rest)[nodes[0]];
+  return a + place.parameter * ((*intruder_.rest)[nodes[1]] - a);
+}
+
+bool SurfaceInTissue::measure(const Place& place, const DistanceField& field,
+                              ContactSample& sample) const
+{
+  const Vec3& a = end(place.element, 0);
+  const Vec3 p = a + place.parameter * (end(place.element, 1) - a);
+  const Host& host = *place.host;
+  if (!(place.area > 0.0))
+  {
+    return false;
+  }
+  const bool found = intruder_.rest == nullptr
+                         ? depth_.evaluate(p, host.tet, host.coords, *x_, field, sample)
+                         : depth_.evaluateSelf(p, host.tet, host.coords, *x_, field,
+                                               *intruder_.rest, restPoint(place), sample);
+  if (!found)
+  {
+    return false;
+  }
+  if (intruder_.first_row >= 0)
+  {
+    const auto& nodes = (*elements_)[place.element].nodes;
+    for (int k = 0; k < (segments_ ? 2 : 1); ++k)
+    {
+      sample.node[sample.count] = intruder_.first_row + nodes[k];
+      sample.coefficient[sample.count++] = k == 0 ? 1.0 - place.parameter : place.parameter;
+    }
+  }
+  sample.host = host.tet;
+  sample.side = intruder_.side;
+  sample.area = 0.5 * place.area;  // the two directions of the pair are averaged
+  sample.stiffness_area = stiffness_ * sample.area;
+  sample.force = sample.stiffness_area * sample.depth;
+  return sample.depth > 0.0;
+}
+
+Vec3 SurfaceInTissue::edgeVector(Index edge) const
+{
+  return end(edge, 1) - end(edge, 0);
+}
+
+}  // namespace soft_tissue

@@ -1,0 +1,211 @@
+#include "soft_tissue_sim/contact/tissue_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "body_motion.h"
+#include "friction.h"
+#include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/base/timer.h"
+#include "soft_tissue_sim/contact/depth_curvature.h"
+#include "tissue_in_tissue.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** How far bodies may move before more of them is looked at, in short edges, to which comes what
+ * they moved last step. */
+constexpr double kMarginOfEdge = 0.25;
+
+NodeRange rangeOf(const TissueBody& body)
+{
+  return {body.first_node, body.node_count};
+}
+
+const TissueBody& withRest(const TissueBody& body)
+{
+  if (body.rest == nullptr)
+  {
+    throw Error("a tissue that touches itself needs its nodes at rest");
+  }
+  return body;
+}
+}  // namespace
+
+struct TissueContact::Parts
+{
+  std::vector<TissueBody> bodies;     ///< one, or two
+  std::vector<TissueInTissue> sides;  ///< of one body the one, of two: first in second, and back
+  std::array<Points, 2> start;        ///< of bodies, at the start of the step
+  double margin = 0.0;  ///< how much nearer bodies may come before candidates are too few, m
+
+  /** The body that has the tets of a side. */
+  std::size_t host(std::size_t side) const { return bodies.size() - 1 - side; }
+  /** The body whose surface is the side's. */
+  std::size_t intruder(std::size_t side) const { return side; }
+};
+
+TissueContact::TissueContact(Side first, Side second, const ContactOptions& options)
+    : ContactTerm(options, {rangeOf(first.body), rangeOf(second.body)}),
+      parts_(std::make_unique<Parts>())
+{
+  Parts& p = *parts_;
+  p.bodies = {first.body, second.body};
+  p.sides.emplace_back(first.body, second.body, std::move(second.field), 1, false, options);
+  p.sides.emplace_back(second.body, first.body, std::move(first.field), -1, false, options);
+}
+
+TissueContact::TissueContact(Side self, const ContactOptions& options)
+    : ContactTerm(options, {rangeOf(self.body)}), parts_(std::make_unique<Parts>())
+{
+  parts_->bodies = {withRest(self.body)};
+  parts_->sides.emplace_back(self.body, self.body, std::move(self.field), 1, true, options);
+}
+
+TissueContact::~TissueContact() = default;
+
+void TissueContact::beginStep(const Points& x, double step_s, bool refresh)
+{
+  lagFriction(x, step_s, refresh);
+  lagPlaces(x, refresh);
+}
+
+/** Friction of a step is that of the contacts it starts with. It acts between the points of both
+ * bodies that are at one place, so it turns nothing. */
+void TissueContact::lagFriction(const Points& x, double step_s, bool refresh)
+{
+  if (!friction().acts())
+  {
+    return;
+  }
+  if (!haveSamplesAt(x))
+  {
+    lagPlaces(x, refresh);
+  }
+  const std::vector<ContactSample>& touching = samples(x);
+  const ScopedTimer timer(times().respond);
+  friction().begin(step_s);
+  for (const ContactSample& sample : touching)
+  {
+    if (sample.stiffness_area > 0.0 && sample.force > 0.0)
+    {
+      addGrip(sample, x);
+    }
+  }
+}
+
+void TissueContact::addGrip(const ContactSample& sample, const Points& x)
+{
+  const Parts& p = *parts_;
+  const std::size_t host = p.host(sample.side > 0 ? 0 : 1);
+  const Tet& tet = (*p.bodies[host].tets)[sample.host];
+  const Index row = p.bodies[host].first_node;
+  const auto coords =
+      tetCoordinates(x[row + tet[0]], x[row + tet[1]], x[row + tet[2]], x[row + tet[3]]);
+  if (!coords)
+  {
+    return;
+  }
+  const Eigen::Vector4d weights = coords->weights(sample.position);
+  Grip grip;
+  grip.normal = sample.normal();
+  grip.press = sample.force;
+  for (int k = 0; k < 4; ++k)
+  {
+    grip.node[grip.count] = row + tet[k];
+    grip.weight[grip.count++] = sample.side * weights[k];
+  }
+  for (int j = options().closest_feature ? 3 : 4; j < sample.count; ++j)  // the intruder's
+  {
+    grip.node[grip.count] = sample.node[j];
+    grip.weight[grip.count++] = -sample.side * sample.coefficient[j];
+  }
+  grip.stuck_at = grip.at(x);
+  grip.origin = sample.position - grip.stuck_at;
+  friction().add(grip);
+}
+
+void TissueContact::lagPlaces(const Points& x, bool refresh)
+{
+  Parts& p = *parts_;
+  const ScopedTimer timer(times().detect);
+  takeBodies(x);
+  p.margin = 0.0;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k)
+  {
+    const double moved = p.start[k].empty() ? 0.0 : largestMotion(p.start[k], body(k));
+    p.margin += kMarginOfEdge * p.bodies[k].short_edge + (std::isfinite(moved) ? moved : 0.0);
+    p.start[k] = body(k);
+  }
+  forgetSamples();
+  for (std::size_t k = 0; k < p.sides.size(); ++k)
+  {
+    p.sides[k].beginStep(p.start[p.intruder(k)], p.start[p.host(k)], p.margin, refresh);
+  }
+}
+
+// The energy stays the same function of x whatever the candidates: areas and depths are those of
+// the start.
+void TissueContact::collect(std::vector<ContactSample>& samples)
+{
+  Parts& p = *parts_;
+  Timer timer;
+  double motion = 0.0;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k)
+  {
+    motion += largestMotion(p.start[k], body(k));
+  }
+  if (motion > p.margin)
+  {
+    p.margin = std::isfinite(motion) ? 2.0 * motion : std::numeric_limits<double>::max() / 4.0;
+    std::for_each(p.sides.begin(), p.sides.end(),
+                  [&](TissueInTissue& side) { side.widen(p.margin); });
+  }
+  for (std::size_t k = 0; k < p.sides.size(); ++k)
+  {
+    timer.restart();
+    const bool found = p.sides[k].find(body(p.intruder(k)), body(p.host(k)));
+    times().detect += timer.restart();
+    if (found)
+    {
+      p.sides[k].addSamples(samples);
+      const double marched_s = p.sides[k].field().takeTime();
+      times().field += marched_s;
+      times().respond += timer.seconds() - marched_s;
+    }
+  }
+}
+
+DepthCurvature TissueContact::curvature(const ContactSample& sample) const
+{
+  return parts_->sides[sample.side > 0 ? 0 : 1].curvature(sample);
+}
+
+void TissueContact::setStiffness(double pa_per_m)
+{
+  for (TissueInTissue& side : parts_->sides)
+  {
+    side.setStiffness(pa_per_m);
+  }
+}
+
+bool TissueContact::active() const
+{
+  return std::any_of(parts_->sides.begin(), parts_->sides.end(),
+                     [](const TissueInTissue& side) { return side.active(); });
+}
+
+void TissueContact::forgetField()
+{
+  for (TissueInTissue& side : parts_->sides)
+  {
+    side.field().forget();
+  }
+}
+
+}  // namespace soft_tissue

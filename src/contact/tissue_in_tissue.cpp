@@ -1,0 +1,86 @@
+#include "tissue_in_tissue.h"
+
+#include <utility>
+
+namespace soft_tissue
+{
+namespace
+{
+std::vector<Index> numbersOf(const SurfaceElements& elements, bool edges)
+{
+  std::vector<Index> numbers;
+  for (const SurfaceElement& element : elements.all())
+  {
+    numbers.insert(numbers.end(), element.nodes.begin(), element.nodes.begin() + (edges ? 2 : 1));
+  }
+  return numbers;
+}
+
+Intruder intruderOf(const TissueBody& body, int side, bool self)
+{
+  Intruder intruder;
+  intruder.side = side;
+  intruder.first_row = body.first_node;
+  intruder.rest = self ? body.rest : nullptr;
+  return intruder;
+}
+}  // namespace
+
+TissueInTissue::TissueInTissue(const TissueBody& intruder, const TissueBody& host,
+                               std::unique_ptr<DistanceField> host_field, int side, bool self,
+                               const ContactOptions& options)
+    : host_(host),
+      elements_(*intruder.surface, options.segments),
+      element_nodes_(numbersOf(elements_, options.segments)),
+      field_(std::move(host_field), host.node_count, options.lazy_field),
+      surface_(host, intruderOf(intruder, side, self), options)
+{
+  const int each = options.segments ? 2 : 1;
+  const ElementSet surface = {element_nodes_.data(), each, static_cast<Index>(elements_.size())};
+  const ElementSet tets = {host.tets->data()->data(), 4, static_cast<Index>(host.tets->size())};
+  finder_ = makePairFinder(PairMethod::hash, surface, tets, self);
+}
+
+void TissueInTissue::beginStep(const Points& intruder, const Points& host, double margin,
+                               bool refresh)
+{
+  intruder_start_ = &intruder;
+  host_start_ = &host;
+  field_.beginStep(host, refresh);
+  widen(margin);
+}
+
+void TissueInTissue::widen(double margin)
+{
+  finder_->find(intruder_start_->data(), host_start_->data(), margin, candidates_);
+  seen_.assign(elements_.size(), 0);
+  for (const ElementPair& pair : candidates_)
+  {
+    if (seen_[pair.first] == 0)
+    {
+      seen_[pair.first] = 1;
+      elements_.lag(pair.first, *intruder_start_, host_.short_edge);
+    }
+  }
+  host_nodes_.clear();
+  seen_.assign(host_.node_count, 0);
+  for (const ElementPair& pair : candidates_)
+  {
+    for (const Index node : (*host_.tets)[pair.second])
+    {
+      if (seen_[node] == 0)
+      {
+        seen_[node] = 1;
+        host_nodes_.push_back(node);
+      }
+    }
+  }
+  field_.expect(host_nodes_);
+}
+
+bool TissueInTissue::find(const Points& intruder, const Points& host)
+{
+  return surface_.findHosts(elements_.all(), intruder, host, candidates_);
+}
+
+}  // namespace soft_tissue

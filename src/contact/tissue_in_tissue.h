@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "host_field.h"
+#include "soft_tissue_sim/collision/pair_finder.h"
+#include "surface_in_tissue.h"
+
+namespace soft_tissue
+{
+/** Samples of one tissue's surface in another tissue, or in itself. */
+class TissueInTissue
+{
+ public:
+  /**
+   * @param side  ContactSample::side of its samples
+   * @param self  both are the same body
+   */
+  TissueInTissue(const TissueBody& intruder, const TissueBody& host,
+                 std::unique_ptr<DistanceField> host_field, int side, bool self,
+                 const ContactOptions& options);
+
+  void setStiffness(double pa_per_m) { surface_.setStiffness(pa_per_m); }
+  HostField& field() { return field_; }
+
+  /**
+   * Takes candidates, areas and the positions that depths are marched on.
+   * @param intruder, host  positions of each body alone at the start of the step, m; they stay
+   * @param margin          how much nearer both may come, m
+   */
+  void beginStep(const Points& intruder, const Points& host, double margin, bool refresh);
+  /** Takes candidates for a larger margin. */
+  void widen(double margin);
+
+  bool active() const { return !candidates_.empty(); }
+
+  /** Finds what is inside, at positions of each body alone, m; they stay until samples are taken.
+   * @return whether anything is */
+  bool find(const Points& intruder, const Points& host);
+  /** Appends the samples of what was found. */
+  void addSamples(std::vector<ContactSample>& samples)
+  {
+    surface_.addSamples(field_.ready(), samples);
+  }
+
+  /** Of one of those samples. */
+  DepthCurvature curvature(const ContactSample& sample) const { return surface_.curvature(sample); }
+
+ private:
+  TissueBody host_;
+  SurfaceElements elements_;
+  std::vector<Index> element_nodes_;  ///< what the finder numbers
+  std::unique_ptr<PairFinder> finder_;
+  HostField field_;
+  SurfaceInTissue surface_;
+  const Points* intruder_start_ = nullptr;
+  const Points* host_start_ = nullptr;
+  std::vector<ElementPair> candidates_;
+  std::vector<Index> host_nodes_;  ///< of candidate tets
+  std::vector<char> seen_;         ///< per element, and then per host node
+};
+
+}  // namespace soft_tissue

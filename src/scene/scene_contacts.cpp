@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene_impl.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** How far two bodies may move past each other in one part of a step, in Contact::size_m; and the
+ * most parts. */
+constexpr double kMostMotion = 1.0;
+constexpr double kMostParts = 64.0;
+
+// Where contact is too deep it is made stiffer, in proportion and a little more, and balance is
+// found anew; in later steps it slowly gets as soft as it was.
+constexpr double kAhead = 1.2, kLeastStiffening = 1.3, kMostStiffening = 4.0;
+constexpr double kRelaxed = 0.98;
+
+/** How far a corner of a box goes from one pose to another, m. */
+double farthestMotion(const Box3& box, const Pose& from, const Pose& to)
+{
+  double farthest = 0.0;
+  for (int k = 0; k < 8; ++k)
+  {
+    const Vec3 corner((k & 1 ? box.max : box.min).x(), (k & 2 ? box.max : box.min).y(),
+                      (k & 4 ? box.max : box.min).z());
+    farthest = std::max(farthest, (to * corner - from * corner).norm());
+  }
+  return farthest;
+}
+
+Vec3 mean(const Vec3* begin, Index count)
+{
+  Vec3 sum = Vec3::Zero();
+  for (Index i = 0; i < count; ++i)
+  {
+    sum += begin[i];
+  }
+  return sum / count;
+}
+
+double farthestFrom(const Vec3& v, const Vec3* begin, Index count)
+{
+  double squared = 0.0;
+  for (Index i = 0; i < count; ++i)
+  {
+    squared = std::max(squared, (begin[i] - v).squaredNorm());
+  }
+  return std::sqrt(squared);
+}
+
+ContactPoint pointOf(const ContactSample& sample, std::size_t tissue)
+{
+  return {sample.position, sample.normal(),       sample.depth,
+          sample.area,     sample.forceOnFirst(), static_cast<Index>(tissue),
+          sample.host};
+}
+
+ContactPoint pointOf(const FrictionForce& force, std::size_t tissue)
+{
+  return {force.position, force.normal, 0.0, 0.0, force.on_first, static_cast<Index>(tissue), -1};
+}
+}  // namespace
+
+/** In how many parts the step has to be taken so that no body gets deeper into another in one of
+ * them than it finds the way out of. */
+int Scene::Impl::partsOfStep() const
+{
+  double parts = 1.0;
+  for (const Contact& contact : contacts_)
+  {
+    const double moved =
+        contact.with_tool != nullptr ? motionOfTool(contact) : motionOfTissues(contact);
+    parts = std::max(parts, moved / (kMostMotion * contact.size_m));
+  }
+  return static_cast<int>(std::ceil(std::min(parts, kMostParts)));
+}
+
+/** How far a tool and a tissue move past each other in this step, m; 0 where they don't meet. */
+double Scene::Impl::motionOfTool(const Contact& contact) const
+{
+  const Tool& tool = tools_[contact.other];
+  const Tissue& tissue = tissues_[contact.tissue];
+  const Vec3* x = x_.data() + tissue.first_node;
+  const double own = config_.time_step_s *
+                     farthestFrom(Vec3::Zero(), v_.data() + tissue.first_node, tissue.node_count);
+  const double moved = farthestMotion(tool.shape.bounds(), tool.X_WT, tool.X_WT_goal) + own;
+  if (!(moved > kMostMotion * contact.size_m))
+  {
+    return 0.0;
+  }
+  Box3 reach = transformed(tool.X_WT, tool.shape.bounds());
+  reach.extend(transformed(tool.X_WT_goal, tool.shape.bounds()));
+  reach.grow(own);
+  const BoundarySurface& surface = tissue_info_[contact.tissue].surface;
+  const bool near = std::any_of(surface.nodes.begin(), surface.nodes.end(),
+                                [&](Index node) { return reach.contains(x[node]); });
+  return near ? moved : 0.0;
+}
+
+/** The same of two tissues. What both do together does not count. */
+double Scene::Impl::motionOfTissues(const Contact& contact) const
+{
+  const Tissue& a = tissues_[contact.tissue];
+  const Tissue& b = tissues_[contact.other];
+  const Vec3 drift = mean(v_.data() + b.first_node, b.node_count);
+  const double moved =
+      config_.time_step_s * (farthestFrom(drift, v_.data() + a.first_node, a.node_count) +
+                             farthestFrom(drift, v_.data() + b.first_node, b.node_count));
+  if (!(moved > kMostMotion * contact.size_m))
+  {
+    return 0.0;
+  }
+  Box3 box_a, box_b;
+  std::for_each_n(x_.begin() + a.first_node, a.node_count, [&](const Vec3& p) { box_a.extend(p); });
+  std::for_each_n(x_.begin() + b.first_node, b.node_count, [&](const Vec3& p) { box_b.extend(p); });
+  box_a.grow(moved);
+  return box_a.overlaps(box_b) ? moved : 0.0;
+}
+
+/** Contacts take the state that the part [from, to] of the step starts with; those that can touch
+ * become terms. */
+void Scene::Impl::beginContacts(double from, double to)
+{
+  const double h = (to - from) * config_.time_step_s;
+  for (const Contact& contact : contacts_)
+  {
+    contact.term->setStiffening(std::max(1.0, kRelaxed * contact.term->stiffening()));
+    if (contact.with_tool != nullptr)
+    {
+      const Tool& tool = tools_[contact.other];
+      contact.with_tool->beginStep(x_, interpolate(tool.X_WT, tool.X_WT_goal, from),
+                                   interpolate(tool.X_WT, tool.X_WT_goal, to), h, contact.refresh);
+    }
+    else
+    {
+      contact.with_tissue->beginStep(x_, h, contact.refresh);
+    }
+    if (contact.term->active())
+    {
+      terms_.push_back(contact.term.get());
+    }
+  }
+}
+
+/** Makes contacts stiffer that are deeper than they may be. @return whether there were any */
+bool Scene::Impl::stiffenWhereTooDeep()
+{
+  bool any = false;
+  for (const Contact& contact : contacts_)
+  {
+    if (!contact.max_penetration_m || !contact.term->active())
+    {
+      continue;
+    }
+    const double share = contact.term->deepest(x_) / *contact.max_penetration_m;
+    if (share > 1.0)
+    {
+      contact.term->setStiffening(contact.term->stiffening() *
+                                  std::clamp(kAhead * share, kLeastStiffening, kMostStiffening));
+      any = true;
+    }
+  }
+  if (any)
+  {
+    newton_->forgetMatrix();
+  }
+  return any;
+}
+
+void Scene::Impl::collectContacts()
+{
+  for (Tool& tool : tools_)
+  {
+    tool.state.wrench_W = Wrench();
+    tool.state.contacts.clear();
+  }
+  for (TissuePairState& pair : pairs_)
+  {
+    pair.contacts.clear();
+  }
+  for (const Contact& contact : contacts_)
+  {
+    if (!contact.term->active())
+    {
+      continue;
+    }
+    const bool tool = contact.with_tool != nullptr;
+    std::vector<ContactPoint>& points =
+        tool ? tools_[contact.other].state.contacts : pairs_[contact.pair].contacts;
+    for (const ContactSample& sample : contact.term->samples(x_))
+    {
+      const bool in_first = !tool && sample.side < 0;
+      points.push_back(pointOf(sample, tool || in_first ? contact.tissue : contact.other));
+      report_.max_penetration_m = std::max(report_.max_penetration_m, sample.depth);
+      ++report_.contacts;
+    }
+    for (const FrictionForce& force : contact.term->frictionForces(x_))
+    {
+      points.push_back(pointOf(force, contact.tissue));
+    }
+  }
+  for (Tool& tool : tools_)
+  {
+    for (const ContactPoint& point : tool.state.contacts)
+    {
+      tool.state.wrench_W.force += point.force_W;
+      tool.state.wrench_W.torque +=
+          (point.position_W - tool.X_WT.translation()).cross(point.force_W);
+    }
+  }
+}
+
+}  // namespace soft_tissue
