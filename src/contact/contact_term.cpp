@@ -96,6 +96,13 @@ void ContactTerm::setStiffening(double factor)
   setStiffness(factor * options_.stiffness_pa_per_m);
 }
 
+void ContactTerm::forget()
+{
+  forgetField();
+  setStiffening(1.0);
+  friction_->forget();
+}
+
 double ContactTerm::deepest(const Points& x)
 {
   double deepest = 0.0;

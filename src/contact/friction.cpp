@@ -1,5 +1,6 @@
 #include "friction.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sample_blocks.h"
@@ -19,10 +20,37 @@ Vec3 slip(const Grip& grip, const Points& x)
 }
 }  // namespace
 
-void Friction::begin(double step_s)
+void Friction::begin(const Points& x, double step_s)
 {
+  slipped_.clear();
+  for (const Grip& grip : grips_)
+  {
+    const Vec3 by = slip(grip, x) / stick_m_;
+    slipped_.push_back({grip.place, by / std::max(1.0, by.norm())});
+  }
+  next_slipped_ = 0;
   stick_m_ = kStickSpeed * step_s;
   grips_.clear();
+}
+
+void Friction::add(Grip grip)
+{
+  while (next_slipped_ < slipped_.size() && slipped_[next_slipped_].place < grip.place)
+  {
+    ++next_slipped_;
+  }
+  if (next_slipped_ < slipped_.size() && slipped_[next_slipped_].place == grip.place)
+  {
+    const Vec3& by = slipped_[next_slipped_].by;
+    grip.stuck_at -= stick_m_ * (by - grip.normal.dot(by) * grip.normal);
+  }
+  grips_.push_back(grip);
+}
+
+void Friction::forget()
+{
+  grips_.clear();
+  slipped_.clear();
 }
 
 /** Of full strength from the stick length on, below it 2 y - y^2 of that, y = slip / stick. */

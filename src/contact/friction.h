@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "soft_tissue_sim/base/types.h"
@@ -11,14 +12,15 @@ namespace soft_tissue
 /** Where two bodies press on each other when a step begins, and what sticking would mean there. */
 struct Grip
 {
-  Vec3 normal;         ///< unit
-  double press = 0.0;  ///< N along it
+  std::uint64_t place = 0;  ///< of the contact, the same from step to step
+  Vec3 normal;              ///< unit
+  double press = 0.0;       ///< N along it
   int count = 0;
   /** With these weights of its nodes the point of the second body, less that of the first; the
    * former alone where the first is a tool. */
   std::array<Index, ContactSample::kMaxNodes> node{};
   std::array<double, ContactSample::kMaxNodes> weight{};
-  Vec3 stuck_at;  ///< what those weights give at the end of the step if nothing slides, m
+  Vec3 stuck_at;  ///< what those weights give at the end of the step if nothing moves on, m
   Vec3 origin;    ///< added to what they give, where the friction acts, m
 
   Vec3 at(const Points& x) const
@@ -33,14 +35,15 @@ struct Grip
 };
 
 /**
- * Coulomb friction between two bodies as a potential of how far one slides along the other during a
- * step.
+ * Coulomb friction between two bodies as a potential of how far one slides along the other.
  *
- * Where it acts, how hard both press and along which plane is that of the step's start. Slower than
- * a stick speed the force grows smoothly with the speed; that is how far a hold creeps. The
- * potential is convex.
+ * Where it acts, how hard both press and along which plane is that of the step's start. Up to a
+ * stick length the force grows smoothly with the slip, beyond it is Coulomb's. What has slipped
+ * less stays slipped from step to step, so a load is held without creeping. The potential is
+ * convex.
  *
- * Source: [Li2020] section 5, the smoothed and lagged friction of incremental potential contact.
+ * Source: [Li2020] section 5, the smoothed and lagged friction of incremental potential contact,
+ * which has no memory.
  */
 class Friction
 {
@@ -49,9 +52,12 @@ class Friction
 
   bool acts() const { return coefficient_ > 0.0; }
 
-  /** Forgets all grips. @param step_s  length of the step that begins, > 0 */
-  void begin(double step_s);
-  void add(const Grip& grip) { grips_.push_back(grip); }
+  /** Begins a step that takes step_s > 0 at x, where the last one ended. */
+  void begin(const Points& x, double step_s);
+  /** Adds a grip, by ascending places; it goes on with what was slipped at its place. */
+  void add(Grip grip);
+  /** Forgets all slips. */
+  void forget();
 
   double value(const Points& x) const;
   void addGradient(const Points& x, Points& gradient) const;
@@ -62,12 +68,38 @@ class Friction
   const std::vector<FrictionForce>& forcesAt(const Points& x);
 
  private:
+  /** How far a place had slipped, in stick lengths, at most 1. */
+  struct Slipped
+  {
+    std::uint64_t place;
+    Vec3 by;
+  };
   double forcePerSlip(const Grip& grip, double slip) const;
 
   double coefficient_;
   double stick_m_ = 0.0;  ///< slip of full friction
   std::vector<Grip> grips_;
+  std::vector<Slipped> slipped_;  ///< when the step began, by ascending places
+  std::size_t next_slipped_ = 0;  ///< the first that no grip has come past
   std::vector<FrictionForce> forces_;
 };
+
+/** Calls visit(sample, place) for those samples that press, with a place of their own each. */
+template <typename Visit>
+void forEachPress(const std::vector<ContactSample>& samples, const Visit& visit)
+{
+  std::uint64_t last = 0, rank = 0;
+  for (const ContactSample& sample : samples)
+  {
+    const std::uint64_t element = (static_cast<std::uint64_t>(sample.side < 0) << 62) |
+                                  (static_cast<std::uint64_t>(sample.element) << 24);
+    rank = element == last ? rank + 1 : 0;
+    last = element;
+    if (sample.stiffness_area > 0.0 && sample.force > 0.0)
+    {
+      visit(sample, element | rank);
+    }
+  }
+}
 
 }  // namespace soft_tissue

@@ -265,6 +265,7 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field,
     }
   }
   sample.host = host.tet;
+  sample.element = place.element;
   sample.side = intruder_.side;
   sample.area = 0.5 * place.area;  // the two directions of the pair are averaged
   sample.stiffness_area = stiffness_ * sample.area;

@@ -89,17 +89,13 @@ void TissueContact::lagFriction(const Points& x, double step_s, bool refresh)
   }
   const std::vector<ContactSample>& touching = samples(x);
   const ScopedTimer timer(times().respond);
-  friction().begin(step_s);
-  for (const ContactSample& sample : touching)
-  {
-    if (sample.stiffness_area > 0.0 && sample.force > 0.0)
-    {
-      addGrip(sample, x);
-    }
-  }
+  friction().begin(x, step_s);
+  forEachPress(touching, [&](const ContactSample& sample, std::uint64_t place) {
+    addGrip(sample, place, x);
+  });
 }
 
-void TissueContact::addGrip(const ContactSample& sample, const Points& x)
+void TissueContact::addGrip(const ContactSample& sample, std::uint64_t place, const Points& x)
 {
   const Parts& p = *parts_;
   const std::size_t host = p.host(sample.side > 0 ? 0 : 1);
@@ -113,6 +109,7 @@ void TissueContact::addGrip(const ContactSample& sample, const Points& x)
   }
   const Eigen::Vector4d weights = coords->weights(sample.position);
   Grip grip;
+  grip.place = place;
   grip.normal = sample.normal();
   grip.press = sample.force;
   for (int k = 0; k < 4; ++k)

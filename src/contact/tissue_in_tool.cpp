@@ -46,6 +46,7 @@ void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& sampl
 {
   for (const Index element : near_)
   {
+    const std::size_t before = samples.size();
     if (options_.segments)
     {
       addEdge(surface_.all()[element], x, samples);
@@ -53,6 +54,10 @@ void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& sampl
     else
     {
       addPoint(surface_.all()[element], x, samples);
+    }
+    for (std::size_t i = before; i < samples.size(); ++i)
+    {
+      samples[i].element = element;
     }
   }
 }

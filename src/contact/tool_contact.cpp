@@ -101,15 +101,13 @@ void ToolContact::lagFriction(const Points& x, const Pose& X_WT_before, const Po
   }
   const std::vector<ContactSample>& touching = samples(x);
   const ScopedTimer timer(times().respond);
-  friction().begin(step_s);
+  friction().begin(x, step_s);
   const Pose motion = X_WT * X_WT_before.inverse();
-  for (const ContactSample& sample : touching)
-  {
-    if (sample.stiffness_area > 0.0 && sample.force > 0.0)
-    {
-      friction().add(gripOf(sample, x, motion));
-    }
-  }
+  forEachPress(touching, [&](const ContactSample& sample, std::uint64_t place) {
+    Grip grip = gripOf(sample, x, motion);
+    grip.place = place;
+    friction().add(grip);
+  });
 }
 
 void ToolContact::lagPlaces(const Points& x, const Pose& X_WT_before, const Pose& X_WT,

@@ -7,10 +7,23 @@
 
 namespace soft_tissue
 {
+/** The velocities of the start. */
+void Scene::Impl::setOff()
+{
+  stop();
+  const Points still = v_;
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
+  {
+    std::fill_n(v_.begin() + tissues_[k].first_node, tissues_[k].node_count,
+                config_.tissues[k].velocity_m_per_s);
+  }
+  newton_->restoreFixed(still, v_);
+}
+
 void Scene::Impl::resetWorld()
 {
   x_ = x_rest_;
-  stop();
+  setOff();
   for (std::size_t k = 0; k < tools_.size(); ++k)
   {
     Tool& tool = tools_[k];
@@ -29,8 +42,7 @@ void Scene::Impl::resetWorld()
   makeSolver();
   for (Contact& contact : contacts_)
   {
-    contact.term->forgetField();
-    contact.term->setStiffening(1.0);
+    contact.term->forget();
   }
 }
 

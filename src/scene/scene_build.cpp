@@ -34,11 +34,12 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
     addTissue(k);
   }
   x_rest_ = x_;
-  v_.assign(x_.size(), Vec3::Zero());
-  acceleration_ = v_;
+  v_.resize(x_.size());
+  acceleration_.resize(x_.size());
   inertia_ = std::make_unique<Inertia>(masses_);
   gravity_ = std::make_unique<Gravity>(masses_, config_.gravity_m_per_s2);
   makeSolver();
+  setOff();
   tools_.reserve(config_.tools.size());
   for (std::size_t k = 0; k < config_.tools.size(); ++k)
   {

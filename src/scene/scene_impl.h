@@ -93,6 +93,7 @@ class Scene::Impl
   double timeLeft() const;
   void standStillIfBetter(double potential);
   void predict(double h);
+  void setOff();
   void stop();
   void finishStep();
   void collectContacts();

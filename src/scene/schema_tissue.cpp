@@ -114,6 +114,8 @@ const Section<TissueConfig>& tissueSection()
           .required("mesh", &TissueConfig::mesh, mapOf(meshSection()), "Its rest shape.")
           .optional("pose", &TissueConfig::pose, mapOf(poseSection()),
                     "Where the mesh file's frame stands in the world at rest.")
+          .optional("velocity_m_per_s", &TissueConfig::velocity_m_per_s, vectorOfNorm(1000.0),
+                    "What all of it but its fixed nodes moves with at first, in the world frame.")
           .required("material", &TissueConfig::material, material(), "What it is made of.")
           .optional("regions", &TissueConfig::regions, listOf(mapOf(regionSection())),
                     "Parts of other stiffness or density; each tag once.")

@@ -34,7 +34,8 @@ struct ContactSample
   /** Who intrudes: +1 the first of the pair, which is the tool where there is one; -1 the second.
    */
   int side = 0;
-  Index host = -1;  ///< tet of the host that the point is in; -1: the host is a tool
+  Index host = -1;     ///< tet of the host that the point is in; -1: the host is a tool
+  Index element = -1;  ///< point or edge of the intruding surface
 
   /** Force on the first of the pair, N, world; it acts at `position`. */
   Vec3 forceOnFirst() const { return -side * force * gradient; }

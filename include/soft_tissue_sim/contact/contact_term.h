@@ -50,8 +50,9 @@ class ContactTerm : public EnergyTerm
   /** False when nothing can touch during this step: value, gradient and Hessian are then zero. */
   virtual bool active() const = 0;
 
-  /** Has nodal depths marched anew before they are next read, whatever a step is told. */
-  virtual void forgetField() = 0;
+  /** Forgets what the steps before left: nodal depths, which are marched anew before they are next
+   * read, whatever a step is told; stiffening; and what friction holds. */
+  void forget();
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
@@ -83,6 +84,8 @@ class ContactTerm : public EnergyTerm
   /** Of one of those samples. */
   virtual DepthCurvature curvature(const ContactSample& sample) const = 0;
   virtual void setStiffness(double pa_per_m) = 0;
+  /** Has nodal depths marched anew before they are next read. */
+  virtual void forgetField() = 0;
 
   const ContactOptions& options() const { return options_; }
   Friction& friction() { return *friction_; }

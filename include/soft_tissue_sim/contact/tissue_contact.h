@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "soft_tissue_sim/contact/contact_term.h"
@@ -38,15 +39,15 @@ class TissueContact : public ContactTerm
   void beginStep(const Points& x, double step_s, bool refresh);
 
   bool active() const override;
-  void forgetField() override;
 
  private:
   void collect(std::vector<ContactSample>& samples) override;
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
+  void forgetField() override;
   void lagFriction(const Points& x, double step_s, bool refresh);
   void lagPlaces(const Points& x, bool refresh);
-  void addGrip(const ContactSample& sample, const Points& x);
+  void addGrip(const ContactSample& sample, std::uint64_t place, const Points& x);
 
   struct Parts;
   std::unique_ptr<Parts> parts_;

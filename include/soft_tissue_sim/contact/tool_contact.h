@@ -36,7 +36,6 @@ class ToolContact : public ContactTerm
                  bool refresh);
 
   bool active() const override;
-  void forgetField() override;
 
   /** Nodal depths of the last field; all NaN before the first. */
   const std::vector<double>& depth() const;
@@ -45,6 +44,7 @@ class ToolContact : public ContactTerm
   void collect(std::vector<ContactSample>& samples) override;
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
+  void forgetField() override;
   void lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s,
                    bool refresh);
   void lagPlaces(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);

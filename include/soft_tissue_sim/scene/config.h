@@ -80,6 +80,7 @@ struct TissueConfig
   std::string name;
   MeshConfig mesh;
   PoseConfig pose;
+  Vec3 velocity_m_per_s = Vec3::Zero();  ///< it starts with, world
   MaterialConfig material;
   std::vector<RegionConfig> regions;
   std::vector<BoxConfig> fixed;
