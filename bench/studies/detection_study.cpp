@@ -138,17 +138,20 @@ class Contest
   void addOthers()
   {
     const DetectionBody &a = scene_.a, &b = scene_.b;
-    if (haveFcl())
+    for (const bool inside : {true, false})
     {
       const auto surfaces =
           std::make_shared<FclSurfaces>(a.surface.triangles, a.x, b.surface.triangles, b.x);
       const auto count = std::make_shared<std::size_t>(0);
-      add({"FCL, surface triangles",
-           [=, &a, &b] { return *count = surfaces->collide(a.x, b.x); },
-           [=] { return *count; },
-           nullptr,
-           {},
-           {}});
+      if (haveFcl())
+      {
+        add({inside ? "FCL, surface triangles" : "FCL, by collide()",
+             [=, &a, &b] { return *count = surfaces->collide(a.x, b.x, inside); },
+             [=] { return *count; },
+             nullptr,
+             {},
+             {}});
+      }
     }
     if (haveBullet())
     {

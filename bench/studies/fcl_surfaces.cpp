@@ -3,6 +3,7 @@
 #ifdef SOFT_TISSUE_HAVE_FCL
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/utility.h>
+#include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #endif
@@ -52,21 +53,23 @@ FclSurfaces::FclSurfaces(const std::vector<Triangle>& a, const Points& x_a,
   fill(models_->b, b, x_b);
 }
 
-// The traversal itself: fcl::collide() would copy both models first.
-std::size_t FclSurfaces::collide(const Points& x_a, const Points& x_b)
+std::size_t FclSurfaces::collide(const Points& x_a, const Points& x_b, bool inside)
 {
   refit(models_->a, x_a);
   refit(models_->b, x_b);
   fcl::Transform3d identity_a = fcl::Transform3d::Identity(), identity_b = identity_a;
   const fcl::CollisionRequestd request(std::size_t{1} << 30, false);
   fcl::CollisionResultd result;
-  fcl::detail::MeshCollisionTraversalNode<fcl::AABBd> node;
-  if (!fcl::detail::initialize(node, models_->a, identity_a, models_->b, identity_b, request,
-                               result))
+  if (!inside)
   {
-    return 0;
+    return fcl::collide(&models_->a, identity_a, &models_->b, identity_b, request, result);
   }
-  fcl::detail::collide(&node);
+  fcl::detail::MeshCollisionTraversalNode<fcl::AABBd> node;
+  if (fcl::detail::initialize(node, models_->a, identity_a, models_->b, identity_b, request,
+                              result))
+  {
+    fcl::detail::collide(&node);
+  }
   return result.numContacts();
 }
 #else
@@ -82,7 +85,7 @@ FclSurfaces::FclSurfaces(const std::vector<Triangle>&, const Points&, const std:
                          const Points&)
 {}
 
-std::size_t FclSurfaces::collide(const Points&, const Points&)
+std::size_t FclSurfaces::collide(const Points&, const Points&, bool)
 {
   return 0;
 }

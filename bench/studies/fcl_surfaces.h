@@ -18,8 +18,11 @@ class FclSurfaces
               const Points& x_b);
   ~FclSurfaces();
 
-  /** Refits both trees, bottom up, and counts all pairs of triangles that intersect. */
-  std::size_t collide(const Points& x_a, const Points& x_b);
+  /**
+   * Refits both trees, bottom up, and counts all pairs of triangles that intersect.
+   * @param inside  by the traversal that fcl::collide() calls after copying both models
+   */
+  std::size_t collide(const Points& x_a, const Points& x_b, bool inside);
 
  private:
   struct Models;

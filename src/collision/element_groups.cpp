@@ -16,26 +16,7 @@ constexpr double kSlack = 0.25;
 constexpr double kGrown = 3.0;
 /** Several times what rounding does to sums of a few coordinates. */
 constexpr double kRounding = 1e-14;
-
-/** Sum of a box's edges, m. */
-double edges(const BoxEnds& ends)
-{
-  return -(ends.v[0] + ends.v[1] + ends.v[2] + ends.v[3] + ends.v[4] + ends.v[5]);
-}
 }  // namespace
-
-BoxEnds noBox()
-{
-  return {{kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity}};
-}
-
-void extend(BoxEnds& ends, const BoxEnds& other)
-{
-  for (int k = 0; k < 6; ++k)
-  {
-    ends.v[k] = std::min(ends.v[k], other.v[k]);
-  }
-}
 
 ElementGroups::ElementGroups(const ElementSet& set, Role role)
     : set_(set),
@@ -190,6 +171,8 @@ void ElementGroups::makeGroups()
   }
   boxes_.resize(set_.count);
   group_boxes_.resize(groups);
+  lanes_.resize(groups);
+  group_lanes_.resize(groups);
   opened_.assign(groups, 0);
   x_at_refit_.resize(used_nodes_.size());
 }
@@ -286,17 +269,30 @@ void ElementGroups::makeBoxes(Index group)
 {
   opened_[group] = call_;
   BoxEnds all = noBox();
-  for (Index place = begin(group); place < end(group); ++place)
+  BoxLanes& lanes = lanes_[group];
+  for (int i = 0; i < kSize; ++i)
   {
-    BoxEnds ends = elementBox(place);
-    for (double& v : ends.v)
+    LaneBox lane;
+    lane.fill(BoxLanes::kNothing);
+    const Index place = begin(group) + i;
+    if (place < set_.count)
     {
-      v -= margin_;
+      BoxEnds ends = elementBox(place);
+      for (double& v : ends.v)
+      {
+        v -= margin_;
+      }
+      extend(all, ends);
+      boxes_[place] = ends;
+      lane = scale_(ends);
     }
-    extend(all, ends);
-    boxes_[place] = ends;
+    for (int k = 0; k < 6; ++k)
+    {
+      lanes.v[k][i] = lane[k];
+    }
   }
   group_boxes_[group] = all;
+  group_lanes_[group] = scale_(all);
 }
 
 }  // namespace soft_tissue

@@ -3,50 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
+#include "box_lanes.h"
 #include "soft_tissue_sim/collision/pair_finder.h"
 
 namespace soft_tissue
 {
-/**
- * The ends of a box as pairs are looked for: (min, -max) of a box of the first set, (-max, min) of
- * one of the second. The box around several is the least of each number, and two boxes of different
- * sets overlap where no sum of their numbers is above zero. A box of nothing is +infinity.
- */
-struct BoxEnds
-{
-  double v[6];
-};
-
-using TwoDoubles = double __attribute__((vector_size(16)));
-using TwoMasks = std::int64_t __attribute__((vector_size(16)));
-
-inline TwoDoubles two(const BoxEnds& ends, int k)
-{
-  TwoDoubles values;
-  std::memcpy(&values, ends.v + 2 * k, sizeof(values));
-  return values;
-}
-
-/** Whether boxes of two sets overlap when each end may be off by the slack. */
-inline bool overlap(const BoxEnds& first, const BoxEnds& second, const BoxEnds& slack)
-{
-  const TwoMasks apart = (two(first, 0) + two(second, 0) > two(slack, 0)) |
-                         (two(first, 1) + two(second, 1) > two(slack, 1)) |
-                         (two(first, 2) + two(second, 2) > two(slack, 2));
-  return (apart[0] | apart[1]) == 0;
-}
-
-inline bool overlap(const BoxEnds& first, const BoxEnds& second)
-{
-  return overlap(first, second, BoxEnds{});
-}
-
-BoxEnds noBox();
-void extend(BoxEnds& ends, const BoxEnds& other);
-
 /**
  * Elements of a set in groups of those near each other, and a binary tree of boxes over the groups.
  *
@@ -58,7 +21,7 @@ void extend(BoxEnds& ends, const BoxEnds& other);
 class ElementGroups
 {
  public:
-  static constexpr Index kSize = 16;  ///< elements of a group
+  static constexpr Index kSize = BoxLanes::kCount;  ///< elements of a group
 
   enum class Role
   {
@@ -86,6 +49,12 @@ class ElementGroups
    */
   const std::vector<BoxEnds>& level(int number) const { return levels_[number]; }
 
+  /** How the lanes of this call are made; before the first group is opened. */
+  void setLaneScale(const BoxEnds& middle, const BoxEnds& per_metre)
+  {
+    scale_ = {middle, per_metre};
+  }
+
   /** Makes the boxes of a group's elements, once a call. */
   void open(Index group)
   {
@@ -99,11 +68,16 @@ class ElementGroups
   /** Of an element by its place in the groups, which must be open. */
   const BoxEnds& box(Index place) const { return boxes_[place]; }
 
+  /** Of an opened group's elements, and of itself. */
+  const BoxLanes& lanes(Index group) const { return lanes_[group]; }
+  const LaneBox& groupLane(Index group) const { return group_lanes_[group]; }
+
   Index begin(Index group) const { return group * kSize; }
   Index end(Index group) const { return std::min(set_.count, (group + 1) * kSize); }
   Index element(Index place) const { return order_[place]; }
   /** The nodes of an element by its place; the last one again where there are fewer than four. */
   const std::array<Index, 4>& nodes(Index place) const { return nodes_[place]; }
+  int nodesEach() const { return set_.nodes_each; }
 
  private:
   BoxEnds endsOf(const Vec3& low, const Vec3& high) const;
@@ -132,6 +106,9 @@ class ElementGroups
   std::vector<Index> group_nodes_, group_node_offsets_;  ///< each node of a group once
   std::vector<std::vector<BoxEnds>> levels_;
   std::vector<BoxEnds> boxes_, group_boxes_;
+  std::vector<BoxLanes> lanes_;
+  std::vector<LaneBox> group_lanes_;
+  LaneScale scale_ = {};
   std::vector<std::uint32_t> opened_;  ///< the call that a group was opened in
   std::uint32_t call_ = 0, refits_ = 0;
 };

@@ -42,18 +42,20 @@ class GroupPairs : public PairFinder
  private:
   bool shareNode(Index first_place, Index second_place) const
   {
-    const std::array<Index, 4>& a = first_.nodes(first_place);
-    const std::array<Index, 4>& b = second_.nodes(second_place);
-    std::array<Index, 4> shared = {};
-    for (int i = 0; i < 4; ++i)
+    using FourNodes = Index __attribute__((vector_size(16)));
+    FourNodes nodes;
+    std::memcpy(&nodes, second_.nodes(second_place).data(), sizeof(nodes));
+    FourNodes shared = {};
+    for (int k = 0; k < first_.nodesEach(); ++k)
     {
-      for (int j = 0; j < 4; ++j)
-      {
-        shared[j] |= a[i] == b[j] ? 1 : 0;
-      }
+      shared |= nodes == first_.nodes(first_place)[k];
     }
-    return (shared[0] | shared[1] | shared[2] | shared[3]) != 0;
+    std::int64_t halves[2];
+    std::memcpy(halves, &shared, sizeof(halves));
+    return (halves[0] | halves[1]) != 0;
   }
+
+  void setLaneScale();
 
   bool one_body_;
   std::vector<ElementPair> found_;  ///< longer than they are many

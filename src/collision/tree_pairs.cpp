@@ -14,11 +14,6 @@ struct TreePair
   Index first, second;
 };
 
-double edges(const BoxEnds& ends)
-{
-  return -(ends.v[0] + ends.v[1] + ends.v[2] + ends.v[3] + ends.v[4] + ends.v[5]);
-}
-
 /** Goes down both trees at once where their boxes overlap. */
 class TreePairs : public GroupPairs
 {

@@ -31,7 +31,7 @@ bool isFlat(const Edges& edges)
   return std::abs(volume6) <= kFlat * longest * longest * longest;
 }
 
-/** Two tets around the first one's first corner, the farthest corner at 1. */
+/** Two tets around the first one's first corner, the largest coordinate 1. */
 struct Tets
 {
   Corners a, b;
@@ -93,14 +93,15 @@ bool tetsOverlap(const std::array<Vec3, 4>& a, const std::array<Vec3, 4>& b)
     }
     tets.a.col(k) = a[k] - a[0];
     tets.b.col(k) = b[k] - a[0];
-    farthest = std::max({farthest, tets.a.col(k).norm(), tets.b.col(k).norm()});
+    farthest = std::max(
+        {farthest, tets.a.col(k).cwiseAbs().maxCoeff(), tets.b.col(k).cwiseAbs().maxCoeff()});
   }
   if (!(farthest > 0.0))
   {
     return true;  // one point
   }
-  tets.a /= farthest;  // products of lengths neither overflow nor vanish
-  tets.b /= farthest;
+  tets.a *= 1.0 / farthest;  // products of lengths neither overflow nor vanish
+  tets.b *= 1.0 / farthest;
   const Edges edges_a = edgesOf(tets.a), edges_b = edgesOf(tets.b);
   if (apartAcrossFaces(tets, edges_a) || apartAcrossFaces(tets, edges_b))
   {
