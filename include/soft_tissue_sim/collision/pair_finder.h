@@ -31,8 +31,7 @@ enum class PairMethod
   sweep,  ///< ends of groups' boxes along an axis, in last time's order, then their elements
 };
 
-/** Within a few per cent of the fastest wherever bodies meet in a small part, and without the
- * sweep's many groups side by side in large ones. */
+/** As fast as the sweep where little touches, faster where bodies bend a lot or are large. */
 constexpr PairMethod kDefaultPairMethod = PairMethod::tree;
 
 /** Finds the pairs of elements of two sets, or of one body, that may touch. */
