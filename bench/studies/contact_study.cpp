@@ -4,6 +4,7 @@
 #include <fstream>
 #include <vector>
 
+#include "detection_study.h"
 #include "indentation.h"
 #include "soft_tissue_sim/base/error.h"
 
@@ -65,6 +66,7 @@ class ContactTable
 
 void studyContact(const std::string& folder, bool quick)
 {
+  studyDetection(folder, quick);
   using Shape = Indentation::Shape;
   struct Case
   {

@@ -5,9 +5,10 @@
 namespace soft_tissue::studies
 {
 /**
- * Contact forces against contact mechanics, and from mesh to mesh; writes DIR/contact.csv.
+ * Contact forces against contact mechanics, and from mesh to mesh; writes DIR/contact.csv. Before
+ * that, how long finding contacts takes: DIR/detection.csv.
  * @param quick  coarse meshes only
- * @throws Error if the file can't be written
+ * @throws Error if a file can't be written
  */
 void studyContact(const std::string& folder, bool quick);
 

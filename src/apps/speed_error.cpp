@@ -14,7 +14,8 @@ constexpr const char* kUsage =
     "usage: speed_error field|contact --out DIR [--quick]\n"
     "  field    distance fields: DIR/field.csv; rosrun soft_tissue_sim plot_speed_error.py DIR\n"
     "           draws it\n"
-    "  contact  forces on tools against contact mechanics: DIR/contact.csv\n"
+    "  contact  forces on tools against contact mechanics: DIR/contact.csv; finding who touches\n"
+    "           whom: DIR/detection.csv\n"
     "  --quick  small bodies only, each timed once\n";
 
 using Study = void (*)(const std::string& folder, bool quick);

@@ -43,6 +43,15 @@ class SpeedError(unittest.TestCase):
                 self.assertAlmostEqual(error, float(row["error"]), places=3)
                 self.assertGreater(error, 0.1, "so coarse a mesh is too stiff: %s" % row)
 
+            with open(os.path.join(folder, "detection.csv")) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual(list(rows[0]), ["scene", "tets", "edges", "method", "found", "touching", "missed",
+                                             "find_ms", "ms"])
+            self.assertGreaterEqual(len({row["scene"] for row in rows}), 4)
+            for row in rows:
+                self.assertIn(row["missed"], ["0"] if row["method"][:3] != "FCL" else [""], row)
+                self.assertEqual(int(row["touching"]) > 0, row["scene"].startswith("overlapping"), row)
+
     def test_bad_calls(self):
         for arguments in ([], ["field"], ["magic", "--out", "x"], ["field", "--out"]):
             result = subprocess.run([PROGRAM] + arguments, stderr=subprocess.PIPE, check=False)

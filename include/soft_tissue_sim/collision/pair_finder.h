@@ -16,7 +16,7 @@ struct ElementSet
   Index count = 0;
 };
 
-/** Two elements whose boxes overlap. */
+/** Two elements whose boxes overlap, those of the first set grown by a margin. */
 struct ElementPair
 {
   Index first;
@@ -26,10 +26,13 @@ struct ElementPair
 /** How overlapping boxes are looked for; all find the same. */
 enum class PairMethod
 {
-  tree,   ///< trees of boxes over both sets, refitted as they are gone through
-  hash,   ///< voxels that the second set's bounding spheres stand in
-  sweep,  ///< sorted ends of boxes of groups, then of elements; last time's order is the start
+  tree,   ///< trees of boxes over both sets, gone through together
+  hash,   ///< voxels; each element of the second set stands in the one that its middle is in
+  sweep,  ///< ends of groups' boxes along an axis, in last time's order, then their elements
 };
+
+/** As fast as the sweep where little touches, faster where bodies bend a lot or are large. */
+constexpr PairMethod kDefaultPairMethod = PairMethod::tree;
 
 /** Finds the pairs of elements of two sets, or of one body, that may touch. */
 class PairFinder
@@ -38,7 +41,8 @@ class PairFinder
   virtual ~PairFinder() = default;
 
   /**
-   * Finds every pair whose boxes are no farther apart than a margin, along each axis.
+   * Finds every pair whose boxes are no farther apart than a margin, along each axis. The first
+   * call arranges the elements; what a later one finds depends on its own positions alone.
    * @param x_first   positions that the first set's numbers count in, m
    * @param x_second  those of the second set
    * @param margin    m, >= 0
