@@ -1,0 +1,233 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "soft_tissue_sim/base/types.h"
+
+namespace soft_tissue
+{
+/** Two triangles (a, b, c) and (b, a, d) at an edge, at rest. */
+struct AngleRest
+{
+  double angle;       ///< rad
+  double inverse[2];  ///< of (kSmallArea times twice the area)^2 of each, 1/m^4
+};
+
+/** Share of its rest area below which a triangle's angles begin to fade. */
+constexpr double kSmallArea = 0.1;
+/** Of (area / kSmallArea)^2: below it nothing is left but rounding errors. */
+constexpr double kNoArea = 1e-12;
+
+/** The angle between two triangles beyond that at rest, faded where one has collapsed, and its
+ * derivative by a, b, c, d. Positive where c and d rise on the side of their normals. */
+struct AngleSlope
+{
+  double value = 0.0;
+  Vec3 by[4] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+};
+
+/** What makes angles of collapsed triangles smooth: 1 from u = 1 on, u^3 near 0. */
+struct Fade
+{
+  double value = 1.0, slope = 0.0, curvature = 0.0;
+
+  explicit Fade(double u)
+  {
+    if (u < 1.0)
+    {
+      value = u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+      slope = 30.0 * u * u * (1.0 - u) * (1.0 - u);
+      curvature = 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u);
+    }
+  }
+};
+
+/** One of the triangles: (p, q, r), its edge from p to q. */
+struct AngleSide
+{
+  Vec3 edge, arm, normal;  ///< q - p, r - p, edge x arm
+  double area2, u;         ///< |normal|^2; in units of the small area
+  double length, share;    ///< |edge|; of r's foot on the edge, from p
+
+  AngleSide(const Vec3& p, const Vec3& q, const Vec3& r, double inverse)
+      : edge(q - p), arm(r - p), normal(edge.cross(arm)), area2(normal.squaredNorm())
+  {
+    u = area2 * inverse;
+    const double squared = edge.squaredNorm();
+    length = std::sqrt(squared);
+    share = arm.dot(edge) / squared;
+  }
+};
+
+inline double angleBetween(const AngleSide& one, const AngleSide& other)
+{
+  return std::atan2(other.normal.cross(one.normal).dot(one.edge),
+                    one.length * one.normal.dot(other.normal));
+}
+
+/** Derivative of u by p, q, r. */
+inline void areaSlope(const AngleSide& side, double inverse, Vec3* by)
+{
+  by[0] = 2.0 * inverse * side.normal.cross(side.arm - side.edge);
+  by[1] = 2.0 * inverse * side.arm.cross(side.normal);
+  by[2] = 2.0 * inverse * side.normal.cross(side.edge);
+}
+
+/** Nodes of the two sides among (a, b, c, d), as AngleSide names them. */
+constexpr int kSideNodes[2][3] = {{0, 1, 2}, {1, 0, 3}};
+
+/** The angle beyond that at rest alone, faded. */
+inline double angleValue(const AngleRest& rest, const AngleSide* sides)
+{
+  const double least = std::min(sides[0].u, sides[1].u);
+  const double fade = least < 1.0 ? Fade(sides[0].u).value * Fade(sides[1].u).value : 1.0;
+  return least < kNoArea ? 0.0 : fade * (angleBetween(sides[0], sides[1]) - rest.angle);
+}
+
+/**
+ * The angle with its derivative: c moved along its triangle's normal turns it by one over its
+ * height, and what that does to a and b is split as a lever is.
+ */
+inline AngleSlope angleSlope(const AngleRest& rest, const AngleSide* sides)
+{
+  AngleSlope angle;
+  if (std::min(sides[0].u, sides[1].u) < kNoArea)
+  {
+    return angle;
+  }
+  angle.value = angleBetween(sides[0], sides[1]) - rest.angle;
+  for (int k = 0; k < 2; ++k)
+  {
+    const AngleSide& side = sides[k];
+    const Vec3 turn = side.length / side.area2 * side.normal;
+    angle.by[kSideNodes[k][0]] -= (1.0 - side.share) * turn;
+    angle.by[kSideNodes[k][1]] -= side.share * turn;
+    angle.by[kSideNodes[k][2]] += turn;
+  }
+  return angle;
+}
+
+/** Multiplies an angle by the fade of both its triangles. */
+inline void fadeSlope(const AngleRest& rest, const AngleSide* sides, AngleSlope& angle)
+{
+  const Fade fade[2] = {Fade(sides[0].u), Fade(sides[1].u)};
+  for (Vec3& by : angle.by)
+  {
+    by *= fade[0].value * fade[1].value;
+  }
+  for (int k = 0; k < 2; ++k)
+  {
+    Vec3 by_area[3];
+    areaSlope(sides[k], rest.inverse[k], by_area);
+    for (int i = 0; i < 3; ++i)
+    {
+      angle.by[kSideNodes[k][i]] += angle.value * fade[k].slope * fade[1 - k].value * by_area[i];
+    }
+  }
+  angle.value *= fade[0].value * fade[1].value;
+}
+
+inline Mat3 crossMatrix(const Vec3& v)
+{
+  Mat3 m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+/** How one side turns the angle: derivatives of angleSlope()'s `turn` by p and q. */
+struct TurnSlope
+{
+  Vec3 turn;
+  Mat3 by_p, by_q;
+
+  explicit TurnSlope(const AngleSide& side)
+  {
+    const double scale = side.length / side.area2;
+    turn = scale * side.normal;
+    const Vec3 flip = (2.0 / side.area2) * side.normal;
+    const Vec3 stretch = side.normal / (side.area2 * side.length);
+    // Of the normal by p: v = arm - edge, crossed; by q: v = -arm.
+    const Vec3 p = side.arm - side.edge, q = -side.arm;
+    by_p = scale * (crossMatrix(p) - flip * side.normal.cross(p).transpose()) -
+           stretch * side.edge.transpose();
+    by_q = scale * (crossMatrix(q) - flip * side.normal.cross(q).transpose()) +
+           stretch * side.edge.transpose();
+  }
+};
+
+/** Second derivatives of the angle itself, blocks (i, j) with i <= j in a, b, c, d. */
+inline void angleCurvature(const AngleSide* sides, Mat3 (*k)[4])
+{
+  const TurnSlope one(sides[0]), other(sides[1]);
+  k[0][2] = one.by_p.transpose();
+  k[1][2] = one.by_q.transpose();
+  k[1][3] = other.by_p.transpose();
+  k[0][3] = other.by_q.transpose();
+  k[2][3].setZero();
+  const auto share_by_q = [](const AngleSide& s) -> Vec3 {
+    return (s.arm - 2.0 * s.share * s.edge) / (s.length * s.length);
+  };
+  const auto share_by_p = [](const AngleSide& s) -> Vec3 {
+    return ((2.0 * s.share - 1.0) * s.edge - s.arm) / (s.length * s.length);
+  };
+  k[0][1] = -(1.0 - sides[0].share) * one.by_q + one.turn * share_by_q(sides[0]).transpose() -
+            sides[1].share * other.by_p - other.turn * share_by_p(sides[1]).transpose();
+  // Moving all nodes alike changes nothing.
+  k[0][0] = -(k[0][1] + k[0][2] + k[0][3]);
+  k[1][1] = -(k[0][1].transpose() + k[1][2] + k[1][3]);
+  k[2][2] = -(k[0][2] + k[1][2]);
+  k[3][3] = -(k[0][3] + k[1][3]);
+}
+
+/** Makes of second derivatives of the angle those of the faded one; `angle` is not faded yet. */
+inline void fadeCurvature(const AngleRest& rest, const AngleSide* sides, const AngleSlope& angle,
+                          Mat3 (*k)[4])
+{
+  const Fade fade[2] = {Fade(sides[0].u), Fade(sides[1].u)};
+  Vec3 by_fade[4] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  Vec3 by_area[2][4];
+  Mat3 twice[4][4];
+  for (auto& row : twice)
+  {
+    std::fill_n(row, 4, Mat3::Zero());
+  }
+  for (int s = 0; s < 2; ++s)
+  {
+    const AngleSide& side = sides[s];
+    const int* nodes = kSideNodes[s];
+    Vec3 by[3];
+    areaSlope(side, rest.inverse[s], by);
+    std::fill_n(by_area[s], 4, Vec3::Zero());
+    const Vec3 v[3] = {side.arm - side.edge, -side.arm, side.edge};
+    const double first = fade[s].slope * fade[1 - s].value;
+    const double second = fade[s].curvature * fade[1 - s].value;
+    const Mat3 normal = crossMatrix(side.normal);
+    for (int i = 0; i < 3; ++i)
+    {
+      by_area[s][nodes[i]] = by[i];
+      by_fade[nodes[i]] += first * by[i];
+      for (int j = 0; j < 3; ++j)
+      {
+        Mat3 area = v[i].dot(v[j]) * Mat3::Identity() - v[j] * v[i].transpose();
+        area += i == j ? Mat3::Zero() : Mat3(((j - i + 3) % 3 == 1 ? -1.0 : 1.0) * normal);
+        twice[nodes[i]][nodes[j]] +=
+            2.0 * first * rest.inverse[s] * area + second * by[i] * by[j].transpose();
+      }
+    }
+  }
+  const double value = fade[0].value * fade[1].value, slopes = fade[0].slope * fade[1].slope;
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = i; j < 4; ++j)
+    {
+      twice[i][j] += slopes * (by_area[0][i] * by_area[1][j].transpose() +
+                               by_area[1][i] * by_area[0][j].transpose());
+      k[i][j] = value * k[i][j] + by_fade[i] * angle.by[j].transpose() +
+                angle.by[i] * by_fade[j].transpose() + angle.value * twice[i][j];
+    }
+  }
+}
+
+}  // namespace soft_tissue
