@@ -48,23 +48,42 @@ struct Fade
 struct AngleSide
 {
   Vec3 edge, arm, normal;  ///< q - p, r - p, edge x arm
+  double length;           ///< |edge|
   double area2, u;         ///< |normal|^2; in units of the small area
-  double length, share;    ///< |edge|; of r's foot on the edge, from p
 
-  AngleSide(const Vec3& p, const Vec3& q, const Vec3& r, double inverse)
-      : edge(q - p), arm(r - p), normal(edge.cross(arm)), area2(normal.squaredNorm())
+  AngleSide(const Vec3& along, double size, const Vec3& to_r, double inverse)
+      : edge(along), arm(to_r), normal(edge.cross(arm)), length(size), area2(normal.squaredNorm())
   {
     u = area2 * inverse;
-    const double squared = edge.squaredNorm();
-    length = std::sqrt(squared);
-    share = arm.dot(edge) / squared;
   }
+
+  /** Of r's foot on the edge, from p. */
+  double share() const { return arm.dot(edge) / (length * length); }
 };
 
-inline double angleBetween(const AngleSide& one, const AngleSide& other)
+struct AngleSides
 {
-  return std::atan2(other.normal.cross(one.normal).dot(one.edge),
-                    one.length * one.normal.dot(other.normal));
+  AngleSide one, other;
+
+  AngleSides(const AngleRest& rest, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+      : AngleSides(rest, a, b, c, d, (b - a).norm())
+  {}
+
+  const AngleSide& operator[](int k) const { return k == 0 ? one : other; }
+  double leastArea() const { return std::min(one.u, other.u); }
+
+ private:
+  AngleSides(const AngleRest& rest, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
+             double length)
+      : one(b - a, length, c - a, rest.inverse[0]), other(a - b, length, d - b, rest.inverse[1])
+  {}
+};
+
+/** In [-pi, pi]. */
+inline double angleBetween(const AngleSides& sides)
+{
+  return std::atan2(sides.other.normal.cross(sides.one.normal).dot(sides.one.edge),
+                    sides.one.length * sides.one.normal.dot(sides.other.normal));
 }
 
 /** Derivative of u by p, q, r. */
@@ -79,38 +98,39 @@ inline void areaSlope(const AngleSide& side, double inverse, Vec3* by)
 constexpr int kSideNodes[2][3] = {{0, 1, 2}, {1, 0, 3}};
 
 /** The angle beyond that at rest alone, faded. */
-inline double angleValue(const AngleRest& rest, const AngleSide* sides)
+inline double angleValue(const AngleRest& rest, const AngleSides& sides)
 {
-  const double least = std::min(sides[0].u, sides[1].u);
+  const double least = sides.leastArea();
   const double fade = least < 1.0 ? Fade(sides[0].u).value * Fade(sides[1].u).value : 1.0;
-  return least < kNoArea ? 0.0 : fade * (angleBetween(sides[0], sides[1]) - rest.angle);
+  return least < kNoArea ? 0.0 : fade * (angleBetween(sides) - rest.angle);
 }
 
 /**
  * The angle with its derivative: c moved along its triangle's normal turns it by one over its
  * height, and what that does to a and b is split as a lever is.
  */
-inline AngleSlope angleSlope(const AngleRest& rest, const AngleSide* sides)
+inline AngleSlope angleSlope(const AngleRest& rest, const AngleSides& sides)
 {
   AngleSlope angle;
-  if (std::min(sides[0].u, sides[1].u) < kNoArea)
+  if (sides.leastArea() < kNoArea)
   {
     return angle;
   }
-  angle.value = angleBetween(sides[0], sides[1]) - rest.angle;
+  angle.value = angleBetween(sides) - rest.angle;
   for (int k = 0; k < 2; ++k)
   {
     const AngleSide& side = sides[k];
     const Vec3 turn = side.length / side.area2 * side.normal;
-    angle.by[kSideNodes[k][0]] -= (1.0 - side.share) * turn;
-    angle.by[kSideNodes[k][1]] -= side.share * turn;
+    const double share = side.share();
+    angle.by[kSideNodes[k][0]] -= (1.0 - share) * turn;
+    angle.by[kSideNodes[k][1]] -= share * turn;
     angle.by[kSideNodes[k][2]] += turn;
   }
   return angle;
 }
 
 /** Multiplies an angle by the fade of both its triangles. */
-inline void fadeSlope(const AngleRest& rest, const AngleSide* sides, AngleSlope& angle)
+inline void fadeSlope(const AngleRest& rest, const AngleSides& sides, AngleSlope& angle)
 {
   const Fade fade[2] = {Fade(sides[0].u), Fade(sides[1].u)};
   for (Vec3& by : angle.by)
@@ -158,7 +178,7 @@ struct TurnSlope
 };
 
 /** Second derivatives of the angle itself, blocks (i, j) with i <= j in a, b, c, d. */
-inline void angleCurvature(const AngleSide* sides, Mat3 (*k)[4])
+inline void angleCurvature(const AngleSides& sides, Mat3 (*k)[4])
 {
   const TurnSlope one(sides[0]), other(sides[1]);
   k[0][2] = one.by_p.transpose();
@@ -167,13 +187,13 @@ inline void angleCurvature(const AngleSide* sides, Mat3 (*k)[4])
   k[0][3] = other.by_q.transpose();
   k[2][3].setZero();
   const auto share_by_q = [](const AngleSide& s) -> Vec3 {
-    return (s.arm - 2.0 * s.share * s.edge) / (s.length * s.length);
+    return (s.arm - 2.0 * s.share() * s.edge) / (s.length * s.length);
   };
   const auto share_by_p = [](const AngleSide& s) -> Vec3 {
-    return ((2.0 * s.share - 1.0) * s.edge - s.arm) / (s.length * s.length);
+    return ((2.0 * s.share() - 1.0) * s.edge - s.arm) / (s.length * s.length);
   };
-  k[0][1] = -(1.0 - sides[0].share) * one.by_q + one.turn * share_by_q(sides[0]).transpose() -
-            sides[1].share * other.by_p - other.turn * share_by_p(sides[1]).transpose();
+  k[0][1] = -(1.0 - sides[0].share()) * one.by_q + one.turn * share_by_q(sides[0]).transpose() -
+            sides[1].share() * other.by_p - other.turn * share_by_p(sides[1]).transpose();
   // Moving all nodes alike changes nothing.
   k[0][0] = -(k[0][1] + k[0][2] + k[0][3]);
   k[1][1] = -(k[0][1].transpose() + k[1][2] + k[1][3]);
@@ -182,7 +202,7 @@ inline void angleCurvature(const AngleSide* sides, Mat3 (*k)[4])
 }
 
 /** Makes of second derivatives of the angle those of the faded one; `angle` is not faded yet. */
-inline void fadeCurvature(const AngleRest& rest, const AngleSide* sides, const AngleSlope& angle,
+inline void fadeCurvature(const AngleRest& rest, const AngleSides& sides, const AngleSlope& angle,
                           Mat3 (*k)[4])
 {
   const Fade fade[2] = {Fade(sides[0].u), Fade(sides[1].u)};

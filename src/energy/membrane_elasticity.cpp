@@ -13,16 +13,10 @@ namespace
 {
 constexpr Index kGrain = 512;  // patches or angles per parallel piece
 
-std::array<AngleSide, 2> sidesOf(const AngleMoments& angle, const Points& x)
+AngleSides sidesOf(const AngleMoments& angle, const Points& x)
 {
   const auto& n = angle.nodes;
-  return {AngleSide(x[n[0]], x[n[1]], x[n[2]], angle.rest.inverse[0]),
-          AngleSide(x[n[1]], x[n[0]], x[n[3]], angle.rest.inverse[1])};
-}
-
-bool fades(const std::array<AngleSide, 2>& sides)
-{
-  return std::min(sides[0].u, sides[1].u) < 1.0;
+  return {angle.rest, x[n[0]], x[n[1]], x[n[2]], x[n[3]]};
 }
 
 StretchState stretchOf(const PatchStiffness& patch, const Points& x)
@@ -36,7 +30,7 @@ void MembraneParts::takeAngles(const Points& x)
   parallelFor(angleCount(), kGrain, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k)
     {
-      slopes[k].value = angleValue(angles[k].rest, sidesOf(angles[k], x).data());
+      slopes[k].value = angleValue(angles[k].rest, sidesOf(angles[k], x));
     }
   });
 }
@@ -46,11 +40,11 @@ void MembraneParts::takeSlopes(const Points& x)
   parallelFor(angleCount(), kGrain, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k)
     {
-      const auto sides = sidesOf(angles[k], x);
-      slopes[k] = angleSlope(angles[k].rest, sides.data());
-      if (fades(sides))
+      const AngleSides sides = sidesOf(angles[k], x);
+      slopes[k] = angleSlope(angles[k].rest, sides);
+      if (sides.leastArea() < 1.0)
       {
-        fadeSlope(angles[k].rest, sides.data(), slopes[k]);
+        fadeSlope(angles[k].rest, sides, slopes[k]);
       }
     }
   });
@@ -132,17 +126,17 @@ void MembraneParts::bend(const Points& x, const PatchStiffness& patch, bool posi
       continue;
     }
     const AngleMoments& angle = angles[patch.angles[e]];
-    const auto sides = sidesOf(angle, x);
-    if (std::min(sides[0].u, sides[1].u) < kNoArea)
+    const AngleSides sides = sidesOf(angle, x);
+    if (sides.leastArea() < kNoArea)
     {
       continue;
     }
     const double moment = moments[angle.moments[0]] + moments[angle.moments[1]];
     Mat3 curvature[4][4];
-    angleCurvature(sides.data(), curvature);
-    if (fades(sides))
+    angleCurvature(sides, curvature);
+    if (sides.leastArea() < 1.0)
     {
-      fadeCurvature(angle.rest, sides.data(), angleSlope(angle.rest, sides.data()), curvature);
+      fadeCurvature(angle.rest, sides, angleSlope(angle.rest, sides), curvature);
     }
     for (int i = 0; i < 4; ++i)
     {
@@ -166,6 +160,15 @@ void MembraneParts::addStiffness(const Points& x, Index p, bool positive,
                                  BlockMatrix& hessian) const
 {
   const PatchStiffness& patch = patches[p];
+  const Index* position = positions.data() + kPatchBlocks * static_cast<std::size_t>(p);
+  const BlockOrder* order = orders.data() + kPatchBlocks * static_cast<std::size_t>(p);
+  for (int k = 0; k < kPatchBlocks; ++k)
+  {
+    // Blocks lie all over the matrix: they are on their way while the patch is computed.
+    const double* block = hessian.block(std::max(position[k], 0));
+    __builtin_prefetch(block, 1);
+    __builtin_prefetch(block + 8, 1);
+  }
   Mat3 k[6][6];
   for (int i = 0; i < 6; ++i)
   {
@@ -180,21 +183,20 @@ void MembraneParts::addStiffness(const Points& x, Index p, bool positive,
   k[0][2] = -(stretch[1] + stretch[2]);
   k[0][0] = -(k[0][1] + k[0][2]);
   bend(x, patch, positive, k);
-  const BlockPlace* place = block_places.data() + kPatchBlocks * static_cast<std::size_t>(p);
   for (int i = 0; i < 6; ++i)
   {
-    for (int j = i; j < 6; ++j, ++place)
+    for (int j = i; j < 6; ++j, ++position, ++order)
     {
-      if (place->position < 0)
+      if (*position < 0)
       {
         continue;
       }
-      Eigen::Map<Mat3> block(hessian.block(place->position));
-      if (!place->transposed || place->twice)
+      Eigen::Map<Mat3> block(hessian.block(*position));
+      if (*order != BlockOrder::transposed)
       {
         block += k[i][j];
       }
-      if (place->transposed || place->twice)
+      if (*order != BlockOrder::as_it_is)
       {
         block += k[i][j].transpose();
       }
@@ -202,9 +204,10 @@ void MembraneParts::addStiffness(const Points& x, Index p, bool positive,
   }
 }
 
-void MembraneParts::findPlaces(const BlockMatrix& hessian)
+void MembraneParts::findPositions(const BlockMatrix& hessian)
 {
-  block_places.clear();
+  positions.clear();
+  orders.clear();
   for (const PatchStiffness& patch : patches)
   {
     for (int i = 0; i < 6; ++i)
@@ -218,7 +221,10 @@ void MembraneParts::findPlaces(const BlockMatrix& hessian)
         {
           throw Error("the Hessian has no block for two nodes that a membrane couples");
         }
-        block_places.push_back({position, row != patch.nodes[i], i != j && row == column});
+        const BlockOrder order =
+            row == patch.nodes[i] ? BlockOrder::as_it_is : BlockOrder::transposed;
+        positions.push_back(position);
+        orders.push_back(i != j && row == column ? BlockOrder::both : order);
       }
     }
   }
@@ -275,7 +281,7 @@ void MembraneElasticity::addHessian(const Points& x, Curvature curvature, BlockM
 {
   if (parts_->matrix_blocks != hessian.columns().size())
   {
-    parts_->findPlaces(hessian);
+    parts_->findPositions(hessian);
   }
   parts_->takeSlopes(x);
   parallelFor(parts_->patchCount(), kGrain, [&](Index begin, Index end) {

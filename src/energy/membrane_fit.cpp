@@ -19,7 +19,9 @@ constexpr double kSoftest = 0.05;
 /** Six nodes near a conic tell no curvature: this share of the softness is added. */
 constexpr double kSoftened = 1e-4;
 
-/** Curvatures are (k11, k22, k12); moments are what does work on them. */
+/** Curvatures are (k11, k22, sqrt(2) k12), which turn like vectors; moments do work on them. */
+const double kRoot2 = std::sqrt(2.0);
+
 Mat3 plateStiffness(const MembraneParameters& p)
 {
   const double nu = p.poisson_ratio;
@@ -27,16 +29,17 @@ Mat3 plateStiffness(const MembraneParameters& p)
       p.young_modulus * p.thickness * p.thickness * p.thickness / (12.0 * (1.0 - nu * nu));
   const double lateral = -std::abs(nu);
   Mat3 stiffness;
-  stiffness << d, lateral * d, 0.0, lateral * d, d, 0.0, 0.0, 0.0, 2.0 * (1.0 - lateral) * d;
+  stiffness << d, lateral * d, 0.0, lateral * d, d, 0.0, 0.0, 0.0, (1.0 - lateral) * d;
   return stiffness;
 }
 
-/** Curvatures (tt, nn, tn) in axes t and n of those in the axes t and n are given in. */
+/** Curvatures in axes t and n of those in the axes t and n are given in. */
 Mat3 turnedInto(const Vec2& t, const Vec2& n)
 {
   Mat3 m;
-  m << t.x() * t.x(), t.y() * t.y(), 2.0 * t.x() * t.y(), n.x() * n.x(), n.y() * n.y(),
-      2.0 * n.x() * n.y(), t.x() * n.x(), t.y() * n.y(), t.x() * n.y() + t.y() * n.x();
+  m << t.x() * t.x(), t.y() * t.y(), kRoot2 * t.x() * t.y(), n.x() * n.x(), n.y() * n.y(),
+      kRoot2 * n.x() * n.y(), kRoot2 * t.x() * n.x(), kRoot2 * t.y() * n.y(),
+      t.x() * n.y() + t.y() * n.x();
   return m;
 }
 
@@ -50,7 +53,8 @@ Vec3 anglePerCurvature(const Points& x, const MembraneAngle& angle)
   {
     const Vec3 arm = x[angle.nodes[2 + side]] - x[angle.nodes[0]];
     const double along = arm.dot(edge) / length, height = edge.cross(arm).norm() / length;
-    m += Vec3(0.5 * along * (along - length) / height, 0.5 * height, side == 0 ? along : -along);
+    m += Vec3(0.5 * along * (along - length) / height, 0.5 * height,
+              (side == 0 ? along : -along) / kRoot2);
   }
   return m;
 }
@@ -165,18 +169,10 @@ std::vector<AngleStiffness> fitAngleStiffness(const TriMesh& rest, const Membran
     wanted.push_back(0.5 * length * plates.col(1));  // across the edge is the second of three
   }
   std::vector<Fit> fits;
-  std::vector<Mat3> back(3 * mesh.patches.size());  // from a triangle's frame to its angles'
   for (std::size_t t = 0; t < mesh.patches.size(); ++t)
   {
     fits.push_back(
         startFit(rest.nodes, mesh, mesh.patches[t], angles, plateStiffness(parameters[t])));
-    for (int k = 0; k < 3; ++k)
-    {
-      if (mesh.patches[t].angles[k] >= 0)
-      {
-        back[3 * t + k] = fits[t].turn[k].inverse();
-      }
-    }
   }
   std::vector<Vec3> missing(wanted.size());
   for (int sweep = 0; sweep < kSweeps; ++sweep)
@@ -189,7 +185,7 @@ std::vector<AngleStiffness> fitAngleStiffness(const TriMesh& rest, const Membran
       {
         if (mesh.patches[t].angles[k] >= 0)
         {
-          missing[mesh.patches[t].angles[k]] -= (moments.row(k) * back[3 * t + k]).transpose();
+          missing[mesh.patches[t].angles[k]] -= fits[t].turn[k] * moments.row(k).transpose();
         }
       }
     }

@@ -120,9 +120,9 @@ MembraneParts::MembraneParts(const TriMesh& rest, const std::vector<MembranePara
   {
     AngleMoments angle;
     const auto& n = from.nodes;
-    const AngleSide sides[2] = {{rest.nodes[n[0]], rest.nodes[n[1]], rest.nodes[n[2]], 1.0},
-                                {rest.nodes[n[1]], rest.nodes[n[0]], rest.nodes[n[3]], 1.0}};
-    angle.rest.angle = angleBetween(sides[0], sides[1]);
+    const AngleSides sides({0.0, {1.0, 1.0}}, rest.nodes[n[0]], rest.nodes[n[1]], rest.nodes[n[2]],
+                           rest.nodes[n[3]]);
+    angle.rest.angle = angleBetween(sides);
     for (int side = 0; side < 2; ++side)
     {
       angle.rest.inverse[side] = 1.0 / (kSmallArea * kSmallArea * sides[side].area2);

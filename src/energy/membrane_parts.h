@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "membrane_patches.h"
@@ -12,12 +13,13 @@ namespace soft_tissue
 {
 constexpr int kPatchBlocks = 21;  ///< on and above the diagonal of a patch's six nodes
 
-/** A block of a matrix at a pair of nodes of a patch. */
-struct BlockPlace
+/** How a block of a patch goes into a matrix: where its two nodes stand in the other order it is
+ * stored transposed, where they are one node the block and its transpose add up. */
+enum class BlockOrder : std::uint8_t
 {
-  Index position = -1;
-  bool transposed = false;  ///< it is stored as that of the nodes in the other order
-  bool twice = false;       ///< both are one node: the block and its transpose add up
+  as_it_is,
+  transposed,
+  both,
 };
 
 /** A triangle with what is across its edges, ready to be added up. */
@@ -51,7 +53,7 @@ struct MembraneParts
   double bendingOf(const PatchStiffness& patch, double* m) const;
   /** The patch's forces, and its energy into `energies`. */
   void addForces(const Points& x, Index p, Points& gradient);
-  void findPlaces(const BlockMatrix& hessian);
+  void findPositions(const BlockMatrix& hessian);
   /** Adds a patch's second derivative of bending, blocks (i, j) with i <= j of its nodes. */
   void bend(const Points& x, const PatchStiffness& patch, bool positive, Mat3 (*k)[6]) const;
   void addStiffness(const Points& x, Index p, bool positive, BlockMatrix& hessian) const;
@@ -76,10 +78,11 @@ struct MembraneParts
   std::vector<AngleMoments> angles;
   std::vector<Index> chunks, colours;  ///< as in TetChunks
 
-  std::vector<AngleSlope> slopes;        ///< per angle
-  std::vector<double> moments;           ///< 3 per patch
-  std::vector<double> energies;          ///< per patch
-  std::vector<BlockPlace> block_places;  ///< kPatchBlocks per patch, in the matrix last seen
+  std::vector<AngleSlope> slopes;  ///< per angle
+  std::vector<double> moments;     ///< 3 per patch
+  std::vector<double> energies;    ///< per patch
+  std::vector<Index> positions;    ///< kPatchBlocks per patch, in the matrix last seen, or -1
+  std::vector<BlockOrder> orders;  ///< of these
   std::size_t matrix_blocks = 0;
 };
 
