@@ -109,24 +109,20 @@ inline double angleValue(const AngleRest& rest, const AngleSides& sides)
  * The angle with its derivative: c moved along its triangle's normal turns it by one over its
  * height, and what that does to a and b is split as a lever is.
  */
-inline AngleSlope angleSlope(const AngleRest& rest, const AngleSides& sides)
+inline void angleSlope(const AngleRest& rest, const AngleSides& sides, AngleSlope& angle)
 {
-  AngleSlope angle;
   if (sides.leastArea() < kNoArea)
   {
-    return angle;
+    angle = AngleSlope();
+    return;
   }
+  const AngleSide &one = sides.one, &other = sides.other;
   angle.value = angleBetween(sides) - rest.angle;
-  for (int k = 0; k < 2; ++k)
-  {
-    const AngleSide& side = sides[k];
-    const Vec3 turn = side.length / side.area2 * side.normal;
-    const double share = side.share();
-    angle.by[kSideNodes[k][0]] -= (1.0 - share) * turn;
-    angle.by[kSideNodes[k][1]] -= share * turn;
-    angle.by[kSideNodes[k][2]] += turn;
-  }
-  return angle;
+  angle.by[2] = one.length / one.area2 * one.normal;
+  angle.by[3] = one.length / other.area2 * other.normal;
+  const double share = one.share(), other_share = other.share();
+  angle.by[0] = (share - 1.0) * angle.by[2] - other_share * angle.by[3];
+  angle.by[1] = (other_share - 1.0) * angle.by[3] - share * angle.by[2];
 }
 
 /** Multiplies an angle by the fade of both its triangles. */

@@ -13,7 +13,7 @@ namespace
 {
 constexpr Index kGrain = 512;  // patches or angles per parallel piece
 
-AngleSides sidesOf(const AngleMoments& angle, const Points& x)
+inline __attribute__((always_inline)) AngleSides sidesOf(const AngleMoments& angle, const Points& x)
 {
   const auto& n = angle.nodes;
   return {angle.rest, x[n[0]], x[n[1]], x[n[2]], x[n[3]]};
@@ -41,7 +41,7 @@ void MembraneParts::takeSlopes(const Points& x)
     for (Index k = begin; k < end; ++k)
     {
       const AngleSides sides = sidesOf(angles[k], x);
-      slopes[k] = angleSlope(angles[k].rest, sides);
+      angleSlope(angles[k].rest, sides, slopes[k]);
       if (sides.leastArea() < 1.0)
       {
         fadeSlope(angles[k].rest, sides, slopes[k]);
@@ -136,7 +136,9 @@ void MembraneParts::bend(const Points& x, const PatchStiffness& patch, bool posi
     angleCurvature(sides, curvature);
     if (sides.leastArea() < 1.0)
     {
-      fadeCurvature(angle.rest, sides, angleSlope(angle.rest, sides), curvature);
+      AngleSlope slope;
+      angleSlope(angle.rest, sides, slope);
+      fadeCurvature(angle.rest, sides, slope, curvature);
     }
     for (int i = 0; i < 4; ++i)
     {

@@ -39,7 +39,7 @@ Points bent(const TriMesh& mesh, double nu, const std::vector<Index>& fixed, con
   NodalLoads loads(forces);
   NewtonSolver newton(neighboursOf(mesh), fixed, makeCholesky());
   Points x = mesh.nodes;
-  const NewtonReport report = minimise(newton, {&elasticity, &loads}, optionsOf(1e-6, 200), x);
+  const NewtonReport report = minimise(newton, {&elasticity, &loads}, optionsOf(1e-5, 100), x);
   EXPECT_TRUE(report.converged) << "residual " << report.residual;
   return x;
 }
@@ -117,8 +117,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryPattern,
 
 TEST_P(EveryPattern, SquarePlatesSagAsKirchhoffs)
 {
-  const PlateCase cases[] = {{false, 0.00406, {0.06, 0.02, 0.01}},
-                             {true, 0.00126, {0.25, 0.08, 0.03}}};
+  const PlateCase cases[] = {{false, 0.00406, {0.04, 0.01, 0.006}},
+                             {true, 0.00126, {0.18, 0.07, 0.03}}};
   for (const PlateCase& plate : cases)
   {
     for (int mesh = 0; mesh < 3; ++mesh)
@@ -188,7 +188,7 @@ TEST_P(EveryPattern, StripsBendAsBeams)
                   100.0 * last);
     }
     // Where it is clamped the strip can't curve across: the wider, the stiffer.
-    EXPECT_NEAR(last, 0.0, 0.01 + 0.2 * nu * nu);
+    EXPECT_NEAR(last, 0.0, 0.02 + 0.4 * nu * nu);
   }
 }
 
@@ -201,8 +201,8 @@ TEST_P(EveryPattern, StripsBendAsTheElastica)
     std::printf("  %s, alpha %.0f: w/L %.5f (%+.2f %%), u/L %.5f (%+.2f %%)\n", name(GetParam()),
                 alpha, found.down, 100.0 * (found.down / exact.down - 1.0), found.along,
                 100.0 * (found.along / exact.along - 1.0));
-    EXPECT_NEAR(found.down, exact.down, 0.01 * exact.down);
-    EXPECT_NEAR(found.along, exact.along, 0.02 * exact.along);
+    EXPECT_NEAR(found.down, exact.down, 0.015 * exact.down);
+    EXPECT_NEAR(found.along, exact.along, 0.03 * exact.along);
   }
 }
 
