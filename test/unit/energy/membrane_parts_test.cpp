@@ -149,6 +149,23 @@ TEST(MembraneBending, ConstantCurvaturesHaveThePlatesEnergy)
   }
 }
 
+TEST(MembraneBending, EnergyGrowsWithTheSquareOfTheAngle)
+{
+  const TriMesh hinge = {{{0, 0, 0}, {1, 0, 0}, {0.3, 1, 0}, {0.6, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}};
+  MembraneElasticity term = membrane(hinge, {kYoung, 0.3, kThick});
+  const auto energy = [&](double angle) {
+    Points x = hinge.nodes;
+    x[2] = Vec3(0.3, std::cos(angle), std::sin(angle));
+    return term.value(x);
+  };
+  const double unit = energy(1.0);
+  EXPECT_GT(unit, 0.0);
+  for (const double angle : {-3.14, -2.0, -0.5, 0.01, 0.4, 0.8, 1.5, 1.6, 2.3, 2.4, 3.0, 3.141592})
+  {
+    EXPECT_NEAR(energy(angle), unit * angle * angle, 1e-13 * kScale) << angle;
+  }
+}
+
 TEST(Membrane, DoesNotSeeHowTrianglesAreWound)
 {
   const TriMesh mesh = smallSheet();
