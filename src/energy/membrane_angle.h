@@ -201,10 +201,13 @@ struct TurnSlope
     const Vec3 stretch = side.normal / (side.area2 * side.length);
     // Of the normal by p: v = arm - edge, crossed; by q: v = -arm.
     const Vec3 p = side.arm - side.edge, q = -side.arm;
-    by_p = scale * (crossMatrix(p) - flip * side.normal.cross(p).transpose()) -
-           stretch * side.edge.transpose();
-    by_q = scale * (crossMatrix(q) - flip * side.normal.cross(q).transpose()) +
-           stretch * side.edge.transpose();
+    const Vec3 along = scale * flip, edge = side.edge;
+    by_p = crossMatrix(scale * p);
+    by_p.noalias() -= along * side.normal.cross(p).transpose();
+    by_p.noalias() -= stretch * edge.transpose();
+    by_q = crossMatrix(scale * q);
+    by_q.noalias() -= along * side.normal.cross(q).transpose();
+    by_q.noalias() += stretch * edge.transpose();
   }
 };
 
@@ -223,8 +226,9 @@ inline void angleCurvature(const AngleSides& sides, Mat3 (*k)[4])
   const auto share_by_p = [](const AngleSide& s) -> Vec3 {
     return ((2.0 * s.share() - 1.0) * s.edge - s.arm) / (s.length * s.length);
   };
-  k[0][1] = -(1.0 - sides[0].share()) * one.by_q + one.turn * share_by_q(sides[0]).transpose() -
-            sides[1].share() * other.by_p - other.turn * share_by_p(sides[1]).transpose();
+  k[0][1] = (sides[0].share() - 1.0) * one.by_q - sides[1].share() * other.by_p;
+  k[0][1].noalias() += one.turn * share_by_q(sides[0]).transpose();
+  k[0][1].noalias() -= other.turn * share_by_p(sides[1]).transpose();
   // Moving all nodes alike changes nothing.
   k[0][0] = -(k[0][1] + k[0][2] + k[0][3]);
   k[1][1] = -(k[0][1].transpose() + k[1][2] + k[1][3]);
