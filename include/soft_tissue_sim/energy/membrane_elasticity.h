@@ -36,11 +36,12 @@ Adjacency membraneNeighbours(Index node_count, const std::vector<Triangle>& tria
  *
  * Bending: 1/2 a^T W a per triangle, a being how far the angles at its edges are from those at
  * rest. W is fitted to the rest mesh such that every constant curvature meets the moments of a
- * Kirchhoff plate of D = E t^3 / (12 (1 - nu^2)), whatever the triangles look like. Its ratio of
- * lateral contraction is -|nu|: edges held or clamped don't see that, nor do strips that bend; but
- * a strip with free edges resists torsion by (1 + nu) / (1 - nu) too much. Edges of one triangle,
- * or of more than two, don't bend. The angle at an edge is in (-pi, pi]: further folding would go
- * through itself. Triangles below a tenth of their rest area gradually cease to bend.
+ * Kirchhoff plate of D = E t^3 / (12 (1 - nu^2)) as nearly as a positive W can; plates were found
+ * to converge on meshes of every texture tried (docs/accuracy.md). Its ratio of lateral contraction
+ * is -|nu|: edges held or clamped don't see that, nor do strips that bend; but a strip with free
+ * edges resists torsion by (1 + nu) / (1 - nu) too much. Edges of one triangle, or of more than
+ * two, don't bend. The angle at an edge is in (-pi, pi]: further folding would go through itself.
+ * Triangles below a tenth of their rest area gradually cease to bend.
  */
 class MembraneElasticity : public EnergyTerm
 {
