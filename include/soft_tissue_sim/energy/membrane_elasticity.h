@@ -30,7 +30,7 @@ Adjacency membraneNeighbours(Index node_count, const std::vector<Triangle>& tria
  * stretching in their planes plus bending between them.
  *
  * Stretching, per rest area, with singular values s of the 3 x 2 deformation gradient, J = s1 s2:
- *   thickness (mu/2 (s1 - s2)^2 + kappa/2 (J - 1)^2 + mu (J - j(J))),  kappa = E / (2 (1 - nu)),
+ *   thickness (mu/2 (s1 - s2)^2 + kappa/2 (j - 1)^2 + mu (J - j)),  kappa = E / (2 (1 - nu)),
  * where j = J but below J = 0.1, where it goes over into a polynomial in J^2. Small strains are
  * those of Hooke's plane stress; forces and their derivatives are finite for every shape.
  *
