@@ -38,7 +38,7 @@ TissueInTissue::TissueInTissue(const TissueBody& intruder, const TissueBody& hos
   const int each = options.segments ? 2 : 1;
   const ElementSet surface = {element_nodes_.data(), each, static_cast<Index>(elements_.size())};
   const ElementSet tets = {host.tets->data()->data(), 4, static_cast<Index>(host.tets->size())};
-  finder_ = makePairFinder(PairMethod::hash, surface, tets, self);
+  finder_ = makePairFinder(kDefaultPairMethod, surface, tets, self);
 }
 
 void TissueInTissue::beginStep(const Points& intruder, const Points& host, double margin,

@@ -25,6 +25,21 @@ void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, 
   }
 }
 
+void addLumpedMasses(const TriMesh& rest, const std::vector<double>& surface_densities,
+                     Index first_node, std::vector<double>& masses)
+{
+  for (std::size_t t = 0; t < rest.triangles.size(); ++t)
+  {
+    const Triangle& n = rest.triangles[t];
+    const Vec3& a = rest.nodes[n[0]];
+    const double area = 0.5 * (rest.nodes[n[1]] - a).cross(rest.nodes[n[2]] - a).norm();
+    for (const Index node : n)
+    {
+      masses[first_node + node] += area * surface_densities[t] / 3.0;
+    }
+  }
+}
+
 void Inertia::beginStep(const Points& x, const Points& velocities, double step)
 {
   target_.resize(x.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coloured_chunks.h"
 #include "soft_tissue_sim/energy/tet_kernels.h"
 #include "soft_tissue_sim/geometry/morton_order.h"
 
@@ -30,44 +31,6 @@ std::vector<Index> nearbyOrder(const TetMesh& mesh)
   }
   return mortonOrder(centres);
 }
-
-/** The smallest colour for each chunk of `size` tets that no chunk before it with a common node
- * has. */
-std::vector<int> colourChunks(const TetMesh& mesh, const std::vector<Index>& order,
-                              std::size_t size)
-{
-  std::vector<std::vector<int>> taken(mesh.nodes.size());
-  std::vector<int> colours;
-  for (std::size_t first = 0; first < order.size(); first += size)
-  {
-    const std::size_t last = std::min(first + size, order.size());
-    std::vector<int> near;
-    for (std::size_t k = first; k < last; ++k)
-    {
-      for (const Index node : mesh.tets[order[k]])
-      {
-        near.insert(near.end(), taken[node].begin(), taken[node].end());
-      }
-    }
-    int colour = 0;
-    while (std::find(near.begin(), near.end(), colour) != near.end())
-    {
-      ++colour;
-    }
-    for (std::size_t k = first; k < last; ++k)
-    {
-      for (const Index node : mesh.tets[order[k]])
-      {
-        if (std::find(taken[node].begin(), taken[node].end(), colour) == taken[node].end())
-        {
-          taken[node].push_back(colour);
-        }
-      }
-    }
-    colours.push_back(colour);
-  }
-  return colours;
-}
 }  // namespace
 
 TetChunks chunkTets(const TetMesh& mesh)
@@ -76,7 +39,7 @@ TetChunks chunkTets(const TetMesh& mesh)
   const Index group_count = (static_cast<Index>(order.size()) + kTetLanes - 1) / kTetLanes;
   const Index groups_each = std::clamp(group_count / kChunks, kFewestGroups, kMostGroups);
   const std::size_t size = static_cast<std::size_t>(groups_each) * kTetLanes;
-  const std::vector<int> colours = colourChunks(mesh, order, size);
+  const std::vector<int> colours = colourChunks(mesh.nodes.size(), mesh.tets, order, size);
   TetChunks chunks;
   chunks.groups.push_back(0);
   chunks.colours.push_back(0);

@@ -12,6 +12,11 @@ namespace soft_tissue
 void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, Index first_node,
                      std::vector<double>& masses);
 
+/** Adds a third of each triangle's mass to its nodes. surface_densities: density times thickness,
+ * one per triangle, kg/m^2. */
+void addLumpedMasses(const TriMesh& rest, const std::vector<double>& surface_densities,
+                     Index first_node, std::vector<double>& masses);
+
 /** 1/(2 h^2) |x - target|^2 in the lumped mass: what makes implicit Euler a minimisation. */
 class Inertia : public EnergyTerm
 {

@@ -48,4 +48,23 @@ TetMesh makeTube(double inner_radius_m, double outer_radius_m, double length_m, 
  */
 TetMesh makeLobe(std::size_t tets);
 
+/** How the cells of a sheet are cut into triangles. */
+enum class SheetPattern
+{
+  diagonal,     ///< by diagonals that all run the same way
+  alternating,  ///< by diagonals that run both ways in turn
+  crossed,      ///< by both diagonals into four
+  irregular,    ///< by either diagonal at random, inner nodes moved by up to a fifth of a cell
+};
+
+/**
+ * A flat rectangle in z = 0 with one corner at the origin, its triangles seen counter-clockwise
+ * from above.
+ * @param cells   along x and y
+ * @param size_m  edge lengths, metres
+ * @throws Error unless all cells are in [1, 1000] and all sizes > 0
+ */
+TriMesh makeSheet(const std::array<int, 2>& cells, const std::array<double, 2>& size_m,
+                  SheetPattern pattern);
+
 }  // namespace soft_tissue

@@ -206,6 +206,30 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Lobe,
                                          std::make_pair("lobe_5k.msh", std::size_t{5000}),
                                          std::make_pair("lobe_20k.msh", std::size_t{20000})));
 
+TEST(Generate, sheetsCoverTheirRectangleOnce)
+{
+  for (const SheetPattern pattern : {SheetPattern::diagonal, SheetPattern::alternating,
+                                     SheetPattern::crossed, SheetPattern::irregular})
+  {
+    const TriMesh mesh = makeSheet({7, 4}, {0.3, 0.2}, pattern);
+    EXPECT_EQ(mesh.triangles.size(), pattern == SheetPattern::crossed ? 112U : 56U);
+    double area = 0.0;
+    for (const Triangle& t : mesh.triangles)
+    {
+      const Vec3& a = mesh.nodes[t[0]];
+      const double twice = (mesh.nodes[t[1]] - a).cross(mesh.nodes[t[2]] - a).z();
+      EXPECT_GT(twice, 0.1 * 0.06 / 28.0);  // of a cell
+      area += 0.5 * twice;
+    }
+    EXPECT_NEAR(area, 0.06, 1e-15);
+    // All positive with this sum, and a rim of one edge a cell: nothing overlaps, nothing is
+    // missing.
+    EXPECT_EQ(extractPlanarBoundary(static_cast<Index>(mesh.nodes.size()), mesh.triangles)
+                  .triangles.size(),
+              22U);
+  }
+}
+
 TEST(Generate, refusesSizesThatMakeNoShape)
 {
   EXPECT_THROW(makeBox({0, 1, 1}, Vec3(1, 1, 1)), Error);
@@ -217,6 +241,8 @@ TEST(Generate, refusesSizesThatMakeNoShape)
   EXPECT_THROW(makeTube(0.02, 0.01, 0.1, 1000), Error);
   EXPECT_THROW(makeTube(0.01, 0.02, 0.0, 1000), Error);
   EXPECT_THROW(makeLobe(100), Error);
+  EXPECT_THROW(makeSheet({0, 1}, {1.0, 1.0}, SheetPattern::diagonal), Error);
+  EXPECT_THROW(makeSheet({1, 1}, {1.0, 0.0}, SheetPattern::diagonal), Error);
 }
 }  // namespace
 }  // namespace soft_tissue
