@@ -93,6 +93,9 @@ class Scene::Impl
   double timeLeft() const;
   void standStillIfBetter(double potential);
   void predict(double h);
+  std::vector<std::vector<NodeRange>> freeBodies();
+  void takeVelocities(double h);
+  void keepSpin(const std::vector<NodeRange>& ranges, const Vec3& spin, double h);
   void setOff();
   void stop();
   void finishStep();

@@ -142,12 +142,7 @@ bool Scene::Impl::minimise(double from, double to)
     stop();
     return true;
   }
-  for (std::size_t i = 0; i < x_.size(); ++i)
-  {
-    const Vec3 v = (x_[i] - before_[i]) / h;
-    acceleration_[i] = (v - v_[i]) / h;
-    v_[i] = v;
-  }
+  takeVelocities(h);
   return true;
 }
 
