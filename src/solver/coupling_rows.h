@@ -5,6 +5,7 @@
 
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/energy/block_matrix.h"
+#include "soft_tissue_sim/solver/pcg_kernels.h"
 
 namespace soft_tissue
 {
@@ -16,55 +17,70 @@ class CouplingRows
   void load(const std::vector<Coupling>& couplings)
   {
     entries_.clear();
-    for (const Coupling& c : couplings)
+    for (Index i = 0; i < static_cast<Index>(couplings.size()); ++i)
     {
-      entries_.push_back({c.row, c.column, c.block.template cast<Real>()});
-      entries_.push_back({c.column, c.row, c.block.transpose().template cast<Real>()});
+      entries_.push_back({couplings[i].row, couplings[i].column, i, false});
+      entries_.push_back({couplings[i].column, couplings[i].row, i, true});
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
       return a.row != b.row ? a.row < b.row : a.column < b.column;
     });
     rows_.clear();
-    for (std::size_t i = 0; i < entries_.size(); ++i)
+    offsets_.clear();
+    columns_.clear();
+    values_.resize(9 * entries_.size() + 1);
+    for (std::size_t k = 0; k < entries_.size(); ++k)
     {
-      if (i == 0 || entries_[i].row != entries_[i - 1].row)
+      const Entry& entry = entries_[k];
+      if (rows_.empty() || rows_.back() != entry.row)
       {
-        rows_.push_back(static_cast<Index>(i));
+        rows_.push_back(entry.row);
+        offsets_.push_back(static_cast<Index>(k));
+      }
+      columns_.push_back(entry.column);
+      const double* block = couplings[entry.coupling].block.data();
+      for (int i = 0; i < 9; ++i)
+      {
+        values_[9 * k + i] = static_cast<Real>(block[entry.transposed ? 3 * (i % 3) + i / 3 : i]);
       }
     }
-    rows_.push_back(static_cast<Index>(entries_.size()));
+    offsets_.push_back(static_cast<Index>(entries_.size()));
+    product_.resize(3 * rows_.size());
   }
 
   /** q += C p for flat vectors, 3 numbers a node. @return p . C p */
-  double addProduct(const Real* p, Real* q) const
+  double addProduct(const PcgKernels<Real>& kernels, const Real* p, Real* q)
   {
-    constexpr Index kGrain = 64;
-    return parallelSum(static_cast<Index>(rows_.size()) - 1, kGrain, [&](Index begin, Index end) {
-      double product = 0.0;
+    constexpr Index kGrain = 128;
+    const BlockRows<Real> rows = {offsets_.data(), columns_.data(), values_.data()};
+    return parallelSum(static_cast<Index>(rows_.size()), kGrain, [&](Index begin, Index end) {
+      kernels.multiplyRows(rows, begin, end, p, product_.data());
+      double sum = 0.0;
       for (Index i = begin; i < end; ++i)
       {
-        Vector sum = Vector::Zero();
-        for (Index k = rows_[i]; k < rows_[i + 1]; ++k)
+        const Real* from = product_.data() + 3 * static_cast<std::size_t>(i);
+        for (int k = 0; k < 3; ++k)
         {
-          sum += entries_[k].block * Eigen::Map<const Vector>(p + 3 * entries_[k].column);
+          q[3 * rows_[i] + k] += from[k];
+          sum += static_cast<double>(p[3 * rows_[i] + k]) * from[k];
         }
-        const Index row = entries_[rows_[i]].row;
-        Eigen::Map<Vector>(q + 3 * row) += sum;
-        product += static_cast<double>(Eigen::Map<const Vector>(p + 3 * row).dot(sum));
       }
-      return product;
+      return sum;
     });
   }
 
  private:
-  using Vector = Eigen::Matrix<Real, 3, 1>;
   struct Entry
   {
-    Index row, column;
-    Eigen::Matrix<Real, 3, 3> block;
+    Index row, column, coupling;
+    bool transposed;
   };
   std::vector<Entry> entries_;  ///< by row, then column
-  std::vector<Index> rows_;     ///< where rows begin, and the end
+  std::vector<Index> rows_;     ///< that have any
+  std::vector<Index> offsets_;  ///< of those rows
+  std::vector<Index> columns_;
+  std::vector<Real> values_;
+  std::vector<Real> product_;
 };
 
 }  // namespace soft_tissue

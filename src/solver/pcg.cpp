@@ -147,7 +147,7 @@ class Conjugator
       double curvature = parallelSum(n, kGrain, [&](Index begin, Index end) {
         return kernels.multiply(rows, begin, end, p, q);
       });
-      curvature += couplings_.addProduct(p, q);
+      curvature += couplings_.addProduct(kernels, p, q);
       if (!(curvature > 0.0))
       {
         return {iteration, 1.0, true, false};
@@ -216,7 +216,7 @@ class Pcg : public LinearSolver
     matrix_ = &a;
     single_.forgetMatrix();
     double_.forgetMatrix();
-    if (groups_.outdated(x))
+    if (groups_.outdated(a, x))
     {
       groups_.build(a, x);
       single_.setGroups(groups_);

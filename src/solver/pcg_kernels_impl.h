@@ -97,7 +97,7 @@ PcgSums precondition(Index begin, Index end, const Real* inverse, const Real* r,
 }
 
 template <typename Real>
-double multiply(const BlockRows<Real>& a, Index begin, Index end, const Real* p, Real* q)
+void multiplyRows(const BlockRows<Real>& a, Index begin, Index end, const Real* p, Real* q)
 {
   using Four = typename Wide<Real>::Four;
   for (Index row = begin; row < end; ++row)
@@ -119,6 +119,12 @@ double multiply(const BlockRows<Real>& a, Index begin, Index end, const Real* p,
     to[1] = sum[1];
     to[2] = sum[2];
   }
+}
+
+template <typename Real>
+double multiply(const BlockRows<Real>& a, Index begin, Index end, const Real* p, Real* q)
+{
+  multiplyRows(a, begin, end, p, q);
   return dotFlat(begin, end, p, q);
 }
 
@@ -220,9 +226,9 @@ void spread(const NodeGroups<Real>& groups, Index begin, Index end, const Real* 
 template <typename Real>
 const PcgKernels<Real>& pcgLoops()
 {
-  static const PcgKernels<Real> loops = {precondition<Real>, multiply<Real>, advance<Real>,
-                                         turn<Real>,         gather<Real>,   multiplyDense<Real>,
-                                         spread<Real>};
+  static const PcgKernels<Real> loops = {precondition<Real>,  multiply<Real>, multiplyRows<Real>,
+                                         advance<Real>,       turn<Real>,     gather<Real>,
+                                         multiplyDense<Real>, spread<Real>};
   return loops;
 }
 

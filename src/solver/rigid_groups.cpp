@@ -15,6 +15,8 @@ constexpr Index kNodesEach = 64;
 constexpr Index kMostGroups = 40;
 /** Share of its group's size a node may move before rigid motions are taken anew. */
 constexpr double kOutdated = 0.5;
+/** Factor by which couplings may get stronger or weaker before. */
+constexpr double kOtherwise = 2.0;
 /** Share of the largest diagonal number added to all: nodes in a line have no moment of inertia. */
 constexpr double kShift = 1e-6;
 
@@ -77,6 +79,16 @@ std::vector<Index> groupCounts(const std::vector<std::vector<Index>>& bodies)
     }
   }
   return counts;
+}
+
+double couplingOf(const BlockMatrix& a)
+{
+  double sum = 0.0;
+  for (const Coupling& coupling : a.couplings())
+  {
+    sum += coupling.block.norm();
+  }
+  return sum;
 }
 
 /** Halves the nodes [begin, end) across their longest side until there are `parts`; appends the
@@ -177,9 +189,11 @@ void RigidGroups::placeArms(const Points& x)
   }
 }
 
-bool RigidGroups::outdated(const Points& x) const
+bool RigidGroups::outdated(const BlockMatrix& a, const Points& x) const
 {
-  if (!usable_ || x.size() != built_at_.size())
+  const double coupling = couplingOf(a);
+  if (!usable_ || x.size() != built_at_.size() || coupling > kOtherwise * coupling_ ||
+      coupling * kOtherwise < coupling_)
   {
     return true;
   }
@@ -204,6 +218,7 @@ void RigidGroups::build(const BlockMatrix& a, const Points& x)
     makeGroups(a, x);
   }
   placeArms(x);
+  coupling_ = couplingOf(a);
   Matrix coarse = Matrix::Zero(6 * size(), 6 * size());
   const auto add = [&](Index row, Index column, const Mat3& b) {
     const Index g = group_[row], h = group_[column];

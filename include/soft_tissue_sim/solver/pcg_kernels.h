@@ -49,6 +49,8 @@ struct PcgKernels
   PcgSums (*precondition)(Index begin, Index end, const Real* inverse, const Real* r, Real* z);
   /** q = A p; returns p . q. */
   double (*multiply)(const BlockRows<Real>& a, Index begin, Index end, const Real* p, Real* q);
+  /** q = A p where A's rows are not p's: 3 numbers of q a row. */
+  void (*multiplyRows)(const BlockRows<Real>& a, Index begin, Index end, const Real* p, Real* q);
   /** d += step p, r -= step q, then q = D r and its sums. */
   PcgSums (*advance)(Index begin, Index end, const Real* inverse, Real step, const Real* p, Real* d,
                      Real* r, Real* q);

@@ -20,8 +20,9 @@ class RigidGroups
    */
   void build(const BlockMatrix& a, const Points& x);
 
-  /** Whether nodes have moved so far since build() that other motions are rigid now. */
-  bool outdated(const Points& x) const;
+  /** Whether nodes have moved so far since build() that other motions are rigid now, or bodies are
+   * coupled quite otherwise. */
+  bool outdated(const BlockMatrix& a, const Points& x) const;
 
   int size() const { return static_cast<int>(offsets_.size()) - 1; }  ///< groups; 0 without level
   /** Nodes of group g: nodes()[offsets()[g]] ... nodes()[offsets()[g + 1] - 1]. */
@@ -45,6 +46,7 @@ class RigidGroups
   std::vector<double> sizes_;  ///< of groups, m
   std::vector<double> arms_;
   std::vector<double> inverse_;
+  double coupling_ = 0.0;  ///< how strong couplings were when the coarse matrix was made, N/m
   Points built_at_;
 };
 
