@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -18,9 +16,9 @@ namespace soft_tissue
 {
 namespace
 {
-/** How far bodies may move before more of them is looked at, in short edges, to which comes what
- * they moved last step. */
-constexpr double kMarginOfEdge = 0.25;
+/** How far bodies may be from where they were expected before candidates are looked for anew, in
+ * short edges; to this comes how far they were last step, up to a whole edge. */
+constexpr double kMarginOfEdge = 0.25, kMostOff = 0.75;
 
 NodeRange rangeOf(const TissueBody& body)
 {
@@ -42,6 +40,7 @@ struct TissueContact::Parts
   std::vector<TissueBody> bodies;     ///< one, or two
   std::vector<TissueInTissue> sides;  ///< of one body the one, of two: first in second, and back
   std::array<Points, 2> start;        ///< of bodies, at the start of the step
+  std::array<Points, 2> expected;     ///< and where they were expected to go
   double margin = 0.0;  ///< how much nearer bodies may come before candidates are too few, m
 
   /** The body that has the tets of a side. */
@@ -69,10 +68,10 @@ TissueContact::TissueContact(Side self, const ContactOptions& options)
 
 TissueContact::~TissueContact() = default;
 
-void TissueContact::beginStep(const Points& x, double step_s, bool refresh)
+void TissueContact::beginStep(const Points& x, const Points& towards, double step_s, bool refresh)
 {
   lagFriction(x, step_s, refresh);
-  lagPlaces(x, refresh);
+  lagPlaces(x, towards, refresh);
 }
 
 /** Friction of a step is that of the contacts it starts with. It acts between the points of both
@@ -85,7 +84,7 @@ void TissueContact::lagFriction(const Points& x, double step_s, bool refresh)
   }
   if (!haveSamplesAt(x))
   {
-    lagPlaces(x, refresh);
+    lagPlaces(x, x, refresh);
   }
   const std::vector<ContactSample>& touching = samples(x);
   const ScopedTimer timer(times().respond);
@@ -127,22 +126,30 @@ void TissueContact::addGrip(const ContactSample& sample, std::uint64_t place, co
   friction().add(grip);
 }
 
-void TissueContact::lagPlaces(const Points& x, bool refresh)
+void TissueContact::lagPlaces(const Points& x, const Points& towards, bool refresh)
 {
   Parts& p = *parts_;
   const ScopedTimer timer(times().detect);
-  takeBodies(x);
   p.margin = 0.0;
+  takeBodies(x);
   for (std::size_t k = 0; k < p.bodies.size(); ++k)
   {
-    const double moved = p.start[k].empty() ? 0.0 : largestMotion(p.start[k], body(k));
-    p.margin += kMarginOfEdge * p.bodies[k].short_edge + (std::isfinite(moved) ? moved : 0.0);
+    const double off = p.start[k].empty() ? 0.0 : largestMotion(p.expected[k], body(k));
+    const double edge = p.bodies[k].short_edge;
+    p.margin += kMarginOfEdge * edge + std::min(off, kMostOff * edge);
     p.start[k] = body(k);
+  }
+  takeBodies(towards);
+  for (std::size_t k = 0; k < p.bodies.size(); ++k)
+  {
+    p.expected[k] = body(k);
   }
   forgetSamples();
   for (std::size_t k = 0; k < p.sides.size(); ++k)
   {
-    p.sides[k].beginStep(p.start[p.intruder(k)], p.start[p.host(k)], p.margin, refresh);
+    p.sides[k].beginStep({&p.start[p.intruder(k)], &p.start[p.host(k)], &p.expected[p.intruder(k)],
+                          &p.expected[p.host(k)]},
+                         p.margin, refresh);
   }
 }
 
@@ -155,13 +162,16 @@ void TissueContact::collect(std::vector<ContactSample>& samples)
   double motion = 0.0;
   for (std::size_t k = 0; k < p.bodies.size(); ++k)
   {
-    motion += largestMotion(p.start[k], body(k));
+    motion += largestMotion(p.expected[k], body(k));
   }
   if (motion > p.margin)
   {
-    p.margin = std::isfinite(motion) ? 2.0 * motion : std::numeric_limits<double>::max() / 4.0;
+    for (std::size_t k = 0; k < p.bodies.size(); ++k)
+    {
+      p.expected[k] = body(k);
+    }
     std::for_each(p.sides.begin(), p.sides.end(),
-                  [&](TissueInTissue& side) { side.widen(p.margin); });
+                  [&](TissueInTissue& side) { side.lookAround(p.margin); });
   }
   for (std::size_t k = 0; k < p.sides.size(); ++k)
   {

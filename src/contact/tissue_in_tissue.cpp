@@ -41,25 +41,23 @@ TissueInTissue::TissueInTissue(const TissueBody& intruder, const TissueBody& hos
   finder_ = makePairFinder(kDefaultPairMethod, surface, tets, self);
 }
 
-void TissueInTissue::beginStep(const Points& intruder, const Points& host, double margin,
-                               bool refresh)
+void TissueInTissue::beginStep(const Positions& at, double margin, bool refresh)
 {
-  intruder_start_ = &intruder;
-  host_start_ = &host;
-  field_.beginStep(host, refresh);
-  widen(margin);
+  at_ = at;
+  field_.beginStep(*at_.host, refresh);
+  lookAround(margin);
 }
 
-void TissueInTissue::widen(double margin)
+void TissueInTissue::lookAround(double margin)
 {
-  finder_->find(intruder_start_->data(), host_start_->data(), margin, candidates_);
+  finder_->find(at_.intruder_expected->data(), at_.host_expected->data(), margin, candidates_);
   seen_.assign(elements_.size(), 0);
   for (const ElementPair& pair : candidates_)
   {
     if (seen_[pair.first] == 0)
     {
       seen_[pair.first] = 1;
-      elements_.lag(pair.first, *intruder_start_, host_.short_edge);
+      elements_.lag(pair.first, *at_.intruder, host_.short_edge);
     }
   }
   host_nodes_.clear();

@@ -24,14 +24,24 @@ class TissueInTissue
   void setStiffness(double pa_per_m) { surface_.setStiffness(pa_per_m); }
   HostField& field() { return field_; }
 
+  /** Positions of each body alone, m, when a step begins, and where they are expected to go. */
+  struct Positions
+  {
+    const Points* intruder = nullptr;
+    const Points* host = nullptr;
+    const Points* intruder_expected = nullptr;
+    const Points* host_expected = nullptr;
+  };
+
   /**
-   * Takes candidates, areas and the positions that depths are marched on.
-   * @param intruder, host  positions of each body alone at the start of the step, m; they stay
-   * @param margin          how much nearer both may come, m
+   * Takes areas and the positions that depths are marched on, and looks for candidates where bodies
+   * are expected.
+   * @param at      they stay
+   * @param margin  how much nearer both may come, m
    */
-  void beginStep(const Points& intruder, const Points& host, double margin, bool refresh);
-  /** Takes candidates for a larger margin. */
-  void widen(double margin);
+  void beginStep(const Positions& at, double margin, bool refresh);
+  /** Looks for candidates where bodies are expected now. */
+  void lookAround(double margin);
 
   bool active() const { return !candidates_.empty(); }
 
@@ -54,8 +64,7 @@ class TissueInTissue
   std::unique_ptr<PairFinder> finder_;
   HostField field_;
   SurfaceInTissue surface_;
-  const Points* intruder_start_ = nullptr;
-  const Points* host_start_ = nullptr;
+  Positions at_;
   std::vector<ElementPair> candidates_;
   std::vector<Index> host_nodes_;  ///< of candidate tets
   std::vector<char> seen_;         ///< per element, and then per host node

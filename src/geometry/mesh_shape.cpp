@@ -3,7 +3,7 @@
 
 #include "closed_surface.h"
 #include "feature_curvature.h"
-#include "soft_tissue_sim/geometry/aabb_tree.h"
+#include "soft_tissue_sim/geometry/triangle_tree.h"
 #include "soft_tissue_sim/geometry/closest_point.h"
 #include "surface_grid.h"
 
@@ -26,15 +26,7 @@ class MeshShape : public RigidShape
     const std::vector<Index> twins = closedSurfaceTwins(mesh_, what);
     normals_ = pseudoNormals(mesh_, twins);
     convex_ = isConvexSurface(mesh_, twins, normals_.faces);
-    std::vector<Box3> boxes(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-    {
-      for (const Index node : triangles[i])
-      {
-        boxes[i].extend(nodes[node]);
-      }
-    }
-    tree_.build(boxes);
+    tree_.build(mesh_.triangles, mesh_.nodes);
     on_surface_ = 1e-12 * (bounds().max - bounds().min).norm();
     inner_radius_ = climbed(largestTouchingBall());
   }
@@ -94,18 +86,15 @@ class MeshShape : public RigidShape
     TrianglePoint at;
   };
 
-  TrianglePoint closestOn(Index triangle, const Vec3& p) const
-  {
-    const Triangle& t = mesh_.triangles[triangle];
-    return closestOnTriangle(p, mesh_.nodes[t[0]], mesh_.nodes[t[1]], mesh_.nodes[t[2]]);
-  }
-
   Nearest closest(const Vec3& p) const
   {
-    const Index best =
-        tree_.closest(p, [&](Index triangle) { return closestOn(triangle, p).squared_distance; });
-    const Index triangle = std::max(best, 0);  // a point that is not finite is near to nothing
-    return {triangle, closestOn(triangle, p)};
+    const TriangleTree::Nearest nearest = tree_.nearest(p, mesh_.nodes);
+    if (nearest.triangle >= 0)
+    {
+      return {nearest.triangle, nearest.point};
+    }
+    const Triangle& t = mesh_.triangles[0];  // a point that is not finite is near to nothing
+    return {0, closestOnTriangle(p, mesh_.nodes[t[0]], mesh_.nodes[t[1]], mesh_.nodes[t[2]])};
   }
 
   const Vec3& pseudoNormal(const Nearest& nearest) const
@@ -187,7 +176,7 @@ class MeshShape : public RigidShape
 
   SurfaceMesh mesh_;
   PseudoNormals normals_;
-  AabbTree tree_;
+  TriangleTree tree_;
   bool convex_ = false;
   double on_surface_ = 0.0;
   double inner_radius_ = 0.0;

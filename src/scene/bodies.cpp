@@ -16,30 +16,62 @@ std::string indexed(const std::string& where, const char* key, std::size_t index
   return where + "." + key + "[" + std::to_string(index) + "]";
 }
 
-std::vector<Index> nodesIn(const std::vector<BoxConfig>& boxes, const Points& nodes,
-                           const std::string& where)
+/** @throws Error if there are none; `where` names the box */
+std::vector<Index> nodesIn(const BoxConfig& box, const Points& nodes, const std::string& where)
 {
   std::vector<Index> found;
-  for (std::size_t k = 0; k < boxes.size(); ++k)
+  for (std::size_t i = 0; i < nodes.size(); ++i)
   {
-    const BoxConfig& box = boxes[k];
-    const std::size_t before = found.size();
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    if ((nodes[i].array() >= box.min.array()).all() && (nodes[i].array() <= box.max.array()).all())
     {
-      if ((nodes[i].array() >= box.min.array()).all() &&
-          (nodes[i].array() <= box.max.array()).all())
-      {
-        found.push_back(static_cast<Index>(i));
-      }
-    }
-    if (found.size() == before)
-    {
-      throw Error(indexed(where, "fixed", k) + ".box_m holds no node of the mesh");
+      found.push_back(static_cast<Index>(i));
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  if (found.empty())
+  {
+    throw Error(where + ".box_m holds no node of the mesh");
+  }
   return found;
+}
+
+std::vector<Index> fixedNodes(const TissueConfig& config, const Points& nodes,
+                              const std::string& where)
+{
+  std::vector<Index> all;
+  for (std::size_t k = 0; k < config.fixed.size(); ++k)
+  {
+    const std::vector<Index> found = nodesIn(config.fixed[k], nodes, indexed(where, "fixed", k));
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/** Nodes that key frames move; each in one way only. */
+std::vector<std::vector<Index>> movedNodes(const TissueConfig& config, const TissueInfo& info,
+                                           const std::string& where)
+{
+  std::vector<char> held(info.rest.nodes.size(), 0);
+  for (const Index node : info.fixed_nodes)
+  {
+    held[node] = 1;
+  }
+  std::vector<std::vector<Index>> moved;
+  for (std::size_t k = 0; k < config.keyframes.size(); ++k)
+  {
+    const std::string name = indexed(where, "keyframes", k) + ".nodes";
+    moved.push_back(nodesIn(config.keyframes[k].nodes, info.rest.nodes, name));
+    for (const Index node : moved.back())
+    {
+      if (held[node] != 0)
+      {
+        throw Error(name + ".box_m holds nodes that are fixed, or moved by other key frames");
+      }
+      held[node] = 1;
+    }
+  }
+  return moved;
 }
 
 void applyRegions(const TissueConfig& config, const std::string& where, TissueModel& model)
@@ -138,7 +170,8 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
     }
   }
   model.info.surface = extractBoundary(static_cast<Index>(rest.nodes.size()), rest.tets);
-  model.info.fixed_nodes = nodesIn(config.fixed, rest.nodes, where);
+  model.info.fixed_nodes = fixedNodes(config, rest.nodes, where);
+  model.moved = movedNodes(config, model.info, where);
   const MaterialConfig& material = config.material;
   model.stiffness.assign(rest.tets.size(), {material.young_modulus_pa, material.poisson_ratio});
   model.densities.assign(rest.tets.size(), material.density_kg_per_m3);

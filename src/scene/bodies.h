@@ -16,6 +16,7 @@ struct TissueModel
   TissueInfo info;
   std::vector<TetStiffnessParameters> stiffness;  ///< per tet
   std::vector<double> densities;                  ///< per tet, kg/m^3
+  std::vector<std::vector<Index>> moved;          ///< nodes of each TissueConfig::keyframes
 };
 
 /**

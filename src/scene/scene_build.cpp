@@ -60,12 +60,31 @@ void Scene::Impl::addTissue(std::size_t index)
   Tissue& tissue = tissues_[index];
   tissue_info_.push_back(std::move(model.info));
   const TissueInfo& info = tissue_info_.back();
-  if (config_.solver.stepper == Stepper::quasi_static && info.fixed_nodes.empty())
+  if (config_.solver.stepper == Stepper::quasi_static && info.fixed_nodes.empty() &&
+      model.moved.empty())
   {
     throw Error(item(config_, "tissues", index) +
                 ".fixed is empty: a quasi-static tissue needs a fixed region");
   }
   tissue.first_node = static_cast<Index>(x_.size());
+  for (std::size_t k = 0; k < model.moved.size(); ++k)
+  {
+    MovedNodes moved;
+    moved.tissue = index;
+    moved.rows = std::move(model.moved[k]);
+    for (Index& row : moved.rows)
+    {
+      row += tissue.first_node;
+    }
+    const std::vector<PoseKeyframe>& motion = tissue_config.keyframes[k].motion;
+    moved.X_FW = motion[0].pose.toPose().inverse();
+    for (const PoseKeyframe& keyframe : motion)
+    {
+      moved.track.times_s.push_back(keyframe.time_s);
+      moved.track.poses_W.push_back(keyframe.pose.toPose());
+    }
+    moved_.push_back(std::move(moved));
+  }
   tissue.node_count = static_cast<Index>(info.rest.nodes.size());
   tissue.neighbours = nodeNeighbours(tissue.node_count, info.rest.tets);
   tissue.elasticity = std::make_unique<TetElasticity>(info.rest, tissue_config.material.model,
@@ -96,6 +115,10 @@ void Scene::Impl::makeSolver()
     {
       held.push_back(tissue.first_node + node);
     }
+  }
+  for (const MovedNodes& moved : moved_)
+  {
+    held.insert(held.end(), moved.rows.begin(), moved.rows.end());
   }
   // Nodes in no tet have no mass and feel no force: they stay where the file puts them.
   for (std::size_t i = 0; i < masses_.size(); ++i)

@@ -136,7 +136,7 @@ void Scene::Impl::beginContacts(double from, double to)
     }
     else
     {
-      contact.with_tissue->beginStep(x_, h, contact.refresh);
+      contact.with_tissue->beginStep(x_, extrapolated_, h, contact.refresh);
     }
     if (contact.term->active())
     {

@@ -56,6 +56,14 @@ class Scene::Impl
     Adjacency neighbours;
     std::unique_ptr<TetElasticity> elasticity;
   };
+  /** Nodes that key frames move. */
+  struct MovedNodes
+  {
+    std::size_t tissue = 0;
+    std::vector<Index> rows;
+    PoseSeries track;
+    Pose X_FW = Pose::Identity();  ///< the world in the first key frame's frame
+  };
   struct Contact
   {
     std::size_t tissue = 0;
@@ -92,7 +100,8 @@ class Scene::Impl
   bool stiffenWhereTooDeep();
   double timeLeft() const;
   void standStillIfBetter(double potential);
-  void predict(double h);
+  void extrapolate(double h, double end_s);
+  void placeMovedNodes(double time_s, Points& x) const;
   std::vector<std::vector<NodeRange>> freeBodies();
   void takeVelocities(double h);
   void keepSpin(const std::vector<NodeRange>& ranges, const Vec3& spin, double h);
@@ -102,6 +111,7 @@ class Scene::Impl
   void collectContacts();
 
   std::vector<Tissue> tissues_;
+  std::vector<MovedNodes, Eigen::aligned_allocator<MovedNodes>> moved_;
   std::vector<Contact> contacts_;
   std::vector<TissuePairState> pairs_;
   Points x_, x_rest_, v_;

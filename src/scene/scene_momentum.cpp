@@ -77,6 +77,10 @@ std::vector<std::vector<NodeRange>> Scene::Impl::freeBodies()
   {
     held[k] = tissue_info_[k].fixed_nodes.empty() ? 0 : 1;
   }
+  for (const MovedNodes& moved : moved_)
+  {
+    held[moved.tissue] = 1;
+  }
   for (const Contact& contact : contacts_)
   {
     if (contact.term->active() && contact.with_tool != nullptr)

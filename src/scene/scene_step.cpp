@@ -107,6 +107,8 @@ bool Scene::Impl::minimise(double from, double to)
     terms_.push_back(tissue.elasticity.get());
   }
   const std::size_t first_contact = terms_.size();
+  before_ = x_;
+  extrapolate(h, report_.time_s + to * config_.time_step_s);
   beginContacts(from, to);
   term_seconds_.assign(terms_.size(), 0.0);
   if (h != last_h_)  // other second derivatives of inertia
@@ -114,10 +116,14 @@ bool Scene::Impl::minimise(double from, double to)
     newton_->forgetMatrix();
     last_h_ = h;
   }
-  before_ = x_;
   if (dynamic)
   {
-    predict(h);
+    x_ = inertia_->target();
+    newton_->restoreFixed(extrapolated_, x_);
+  }
+  else
+  {
+    x_ = extrapolated_;
   }
   NewtonReport newton = findBalance(dynamic ? &extrapolated_ : nullptr);
   for (int k = 0; k < kMostStiffenings && newton.converged && stiffenWhereTooDeep(); ++k)
@@ -176,16 +182,33 @@ void Scene::Impl::standStillIfBetter(double potential)
   }
 }
 
-/** Where a minimisation may start: the nodes as if no force acted, and as if the last acceleration
- * went on. */
-void Scene::Impl::predict(double h)
+/** Where nodes go if the last acceleration goes on: where a minimisation may start, beside where
+ * they go if no force acts. */
+void Scene::Impl::extrapolate(double h, double end_s)
 {
-  x_ = inertia_->target();
-  newton_->restoreFixed(before_, x_);
   extrapolated_ = x_;
-  for (std::size_t i = 0; i < x_.size(); ++i)
+  if (config_.solver.stepper == Stepper::implicit_euler)
   {
-    extrapolated_[i] += h * h * acceleration_[i];
+    extrapolated_ = inertia_->target();
+    newton_->restoreFixed(x_, extrapolated_);
+    for (std::size_t i = 0; i < x_.size(); ++i)
+    {
+      extrapolated_[i] += h * h * acceleration_[i];
+    }
+  }
+  placeMovedNodes(end_s, extrapolated_);
+}
+
+/** Puts nodes that key frames move where they are at a time. */
+void Scene::Impl::placeMovedNodes(double time_s, Points& x) const
+{
+  for (const MovedNodes& moved : moved_)
+  {
+    const Pose pose = moved.track.at(time_s) * moved.X_FW;
+    for (std::size_t k = 0; k < moved.rows.size(); ++k)
+    {
+      x[moved.rows[k]] = pose * x_rest_[moved.rows[k]];
+    }
   }
 }
 

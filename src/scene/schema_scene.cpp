@@ -69,8 +69,9 @@ const Section<ContactConfig>& contactSection()
                         " E / R, E being the tissue's Young's modulus and R the radius of the "
                         "largest ball inside the tool; of two tissues, E of the softer one and the "
                         "smaller R.")
-          .optional("friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
-                    "Coulomb coefficient; what it holds gives way by less than 0.1 mm/s times the step.")
+          .optional(
+              "friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
+              "Coulomb coefficient; what it holds gives way by less than 0.1 mm/s times the step.")
           .optional("max_penetration_m", &ContactConfig::max_penetration_m,
                     maybe(number(0.0, 1.0, Ends::open), "none", true),
                     "Depth that contact keeps to by getting stiffer where it is deeper.");

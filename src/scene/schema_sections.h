@@ -38,9 +38,13 @@ const Section<TissueConfig>& tissueSection();
 const Section<ToolConfig>& toolSection();
 const Section<ToolShapeConfig>& toolShapeSection();
 const Section<PoseSourceConfig>& poseSourceSection();
+const Section<PoseKeyframe>& keyframeSection();
 const Section<ContactConfig>& contactSection();
 const Section<PoseConfig>& poseSection();
 const Section<PresetsConfig>& presetsSection();
+
+/** Rejects key frames under a key whose times do not ascend. */
+void checkTimes(const Item& item, const char* key, const std::vector<PoseKeyframe>& keyframes);
 
 /** The ranges material constants must lie in, wherever they stand. */
 Kind<MaterialModel> materialModel();

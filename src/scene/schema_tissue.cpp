@@ -88,6 +88,22 @@ const Section<FieldConfig>& fieldSection()
   return section;
 }
 
+const Section<NodeMotionConfig>& nodeMotionSection()
+{
+  static const Section<NodeMotionConfig> section =
+      Section<NodeMotionConfig>("moved nodes",
+                                "Nodes that move like a rigid body, with a frame that goes from "
+                                "its first key frame on to the others.")
+          .required("nodes", &NodeMotionConfig::nodes, mapOf(fixedSection()), "Which, at rest.")
+          .required("motion", &NodeMotionConfig::motion, listOf(mapOf(keyframeSection()), 1),
+                    "The frame at times: linear between them (slerp for the rotation), held "
+                    "before the first and after the last.")
+          .finally([](const Item& item, NodeMotionConfig& moved) {
+            checkTimes(item, "motion", moved.motion);
+          });
+  return section;
+}
+
 void checkRegions(const Item& item, TissueConfig& tissue)
 {
   for (std::size_t i = 0; i < tissue.regions.size(); ++i)
@@ -121,9 +137,10 @@ const Section<TissueConfig>& tissueSection()
                     "Parts of other stiffness or density; each tag once.")
           .optional("fixed", &TissueConfig::fixed, listOf(mapOf(fixedSection())),
                     "Where it is held.")
+          .optional("keyframes", &TissueConfig::keyframes, listOf(mapOf(nodeMotionSection())),
+                    "Where it is held and moved.")
           .optional("field", &TissueConfig::field, mapOf(fieldSection()),
                     "Its distance field; marched only if the tissue has a contact.")
-          .notAvailable("keyframes", "Nodes moved along key frames.")
           .notAvailable("element", "Quadratic and locking-free elements.")
           .finally(checkRegions);
   return section;

@@ -4,21 +4,6 @@ namespace soft_tissue
 {
 namespace
 {
-const Section<PoseKeyframe>& keyframeSection()
-{
-  static const Section<PoseKeyframe> section =
-      Section<PoseKeyframe>("key frame", "Where a tool is at one time.")
-          .required("time_s", &PoseKeyframe::time_s, number(0.0, 1e6, Ends::closed),
-                    "Simulated time; later than that of the key frame before.")
-          .required(
-              "position_m", [](PoseKeyframe & k) -> auto& { return k.pose.position_m; }, position(),
-              "Origin of the tool frame in the world.")
-          .optional(
-              "rotation_rpy_rad", [](PoseKeyframe & k) -> auto& { return k.pose.rotation_rpy_rad; },
-              rotation(), "Roll, pitch, yaw of the tool frame about the world's x, y, z.");
-  return section;
-}
-
 void setKeyframes(PoseSourceConfig& source, const std::vector<PoseKeyframe>& keyframes)
 {
   source.kind = PoseSourceConfig::Kind::keyframes;
@@ -38,18 +23,9 @@ void setFrame(PoseSourceConfig& source, const std::string& frame)
   source.name = frame;
 }
 
-void checkTimes(const Item& item, PoseSourceConfig& source)
+void checkPoses(const Item& item, PoseSourceConfig& source)
 {
-  for (std::size_t i = 1; i < source.keyframes.size(); ++i)
-  {
-    if (!(source.keyframes[i].time_s > source.keyframes[i - 1].time_s))
-    {
-      const Item keyframes = item.at("keyframes");
-      const Item before = keyframes.at(i - 1).at("time_s");
-      keyframes.at(i).at("time_s").rejectValue("must be above " + before.path() + " = " +
-                                               before.written());
-    }
-  }
+  checkTimes(item, "keyframes", source.keyframes);
 }
 
 /** A map, or the bare word of a source that needs no more. */
@@ -104,7 +80,7 @@ const Section<PoseSourceConfig>& poseSourceSection()
                        "geometry_msgs/PoseStamped topic below the tool's namespace.")
           .alternative("tf", setFrame, frame(), "tf frame to follow.")
           .notAvailable("marker", "An interactive marker.")
-          .finally(checkTimes);
+          .finally(checkPoses);
   return section;
 }
 

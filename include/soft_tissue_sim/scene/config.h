@@ -54,6 +54,19 @@ struct BoxConfig
   Vec3 max = Vec3::Zero();
 };
 
+struct PoseKeyframe
+{
+  double time_s = 0.0;
+  PoseConfig pose;
+};
+
+/** Nodes that are moved like a rigid body, as frames go from the first one on. */
+struct NodeMotionConfig
+{
+  BoxConfig nodes;                   ///< at rest
+  std::vector<PoseKeyframe> motion;  ///< ascending times; linear / slerp between, held outside
+};
+
 enum class DepthKind
 {
   interpolated,     ///< linear in the tet from nodal depths, as in both papers
@@ -84,6 +97,7 @@ struct TissueConfig
   MaterialConfig material;
   std::vector<RegionConfig> regions;
   std::vector<BoxConfig> fixed;
+  std::vector<NodeMotionConfig> keyframes;
   FieldConfig field;
 };
 
@@ -125,12 +139,6 @@ struct UrdfShapeConfig
 {
   std::string file;  ///< absolute path
   std::string link;
-};
-
-struct PoseKeyframe
-{
-  double time_s = 0.0;
-  PoseConfig pose;
 };
 
 struct PoseSourceConfig

@@ -120,8 +120,6 @@ std::vector<BadScene> notAvailable()
       {"outputs:", "membranes: [{name: skin}]\noutputs:", "membranes: " NOT_AVAILABLE},
       {"outputs:", "obstacles: [{name: table}]\noutputs:", "obstacles: " NOT_AVAILABLE},
       {"outputs:", "obstacles:\noutputs:", "obstacles: " NOT_AVAILABLE},
-      {"    field: {method: cffm}", "    keyframes: [{motion: []}]",
-       "tissues[0].keyframes: " NOT_AVAILABLE},
       {"    field: {method: cffm}", "    element: tet10", "tissues[0].element: " NOT_AVAILABLE},
       {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
       {"response: segment", "response: auto",

@@ -72,7 +72,7 @@ TEST_F(BadSceneTextTest, NoTissue)
   EXPECT_EQ(complaint("tissues: [liver]\n"),
             "DIR/scene.yaml: tissues[0] = liver, must be a map of keys: name, mesh, pose, "
             "velocity_m_per_s, "
-            "material, regions, fixed, field");
+            "material, regions, fixed, keyframes, field");
 }
 
 TEST_F(BadSceneTextTest, SyntaxErrorsHaveLineAndColumn)
