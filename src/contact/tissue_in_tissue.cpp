@@ -1,11 +1,16 @@
 #include "tissue_in_tissue.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace soft_tissue
 {
 namespace
 {
+/** Parts of one body don't touch each other where they are nearer than this at rest, in its short
+ * edges. */
+constexpr double kNeighbours = 0.5;
+
 std::vector<Index> numbersOf(const SurfaceElements& elements, bool edges)
 {
   std::vector<Index> numbers;
@@ -33,7 +38,8 @@ TissueInTissue::TissueInTissue(const TissueBody& intruder, const TissueBody& hos
       elements_(*intruder.surface, options.segments),
       element_nodes_(numbersOf(elements_, options.segments)),
       field_(std::move(host_field), host.node_count, options.lazy_field),
-      surface_(host, intruderOf(intruder, side, self), options)
+      surface_(host, intruderOf(intruder, side, self), options),
+      rest_(self ? host.rest : nullptr)
 {
   const int each = options.segments ? 2 : 1;
   const ElementSet surface = {element_nodes_.data(), each, static_cast<Index>(elements_.size())};
@@ -51,6 +57,10 @@ void TissueInTissue::beginStep(const Positions& at, double margin, bool refresh)
 void TissueInTissue::lookAround(double margin)
 {
   finder_->find(at_.intruder_expected->data(), at_.host_expected->data(), margin, candidates_);
+  if (rest_ != nullptr)
+  {
+    dropNeighbours();
+  }
   seen_.assign(elements_.size(), 0);
   for (const ElementPair& pair : candidates_)
   {
@@ -74,6 +84,26 @@ void TissueInTissue::lookAround(double margin)
     }
   }
   field_.expect(host_nodes_);
+}
+
+/** What is side by side at rest stays so, and is most of what is near in a body. */
+void TissueInTissue::dropNeighbours()
+{
+  const auto areNeighbours = [&](const ElementPair& pair) {
+    Box3 element, tet;
+    for (const Index node : elements_.nodes(pair.first))
+    {
+      element.extend((*rest_)[node]);
+    }
+    for (const Index node : (*host_.tets)[pair.second])
+    {
+      tet.extend((*rest_)[node]);
+    }
+    element.grow(kNeighbours * host_.short_edge);
+    return element.overlaps(tet);
+  };
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), areNeighbours),
+                    candidates_.end());
 }
 
 bool TissueInTissue::find(const Points& intruder, const Points& host)

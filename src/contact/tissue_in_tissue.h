@@ -58,12 +58,15 @@ class TissueInTissue
   DepthCurvature curvature(const ContactSample& sample) const { return surface_.curvature(sample); }
 
  private:
+  void dropNeighbours();
+
   TissueBody host_;
   SurfaceElements elements_;
   std::vector<Index> element_nodes_;  ///< what the finder numbers
   std::unique_ptr<PairFinder> finder_;
   HostField field_;
   SurfaceInTissue surface_;
+  const Points* rest_;  ///< of the body where it touches itself
   Positions at_;
   std::vector<ElementPair> candidates_;
   std::vector<Index> host_nodes_;  ///< of candidate tets

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
+#include "soft_tissue_sim/contact/tissue_contact.h"
+#include "soft_tissue_sim/scene/tissue_field.h"
 #include "support/tissue_scenes.h"
 
 namespace soft_tissue::test
@@ -11,28 +14,30 @@ namespace
 {
 constexpr double kLength = 0.4, kRadius = 0.01;
 
-/** A tube lying along x whose head is driven to beyond its tail, a little sideways on the way. */
+/** A tube along x whose tail is held while its head is driven towards it and turned round. */
 SceneConfig snake(const ScratchFolder& folder, std::size_t tets, bool touches_itself)
 {
   SceneConfig config =
       tissueScene(saved(folder, "tube.msh", makeTube(0.4 * kRadius, kRadius, kLength, tets)));
+  config.gravity_m_per_s2.setZero();
   TissueConfig& tube = config.tissues[0];
   tube.pose.rotation_rpy_rad = Vec3(0.0, M_PI / 2, 0.0);
   tube.material.young_modulus_pa = 2e4;
-  config.gravity_m_per_s2 = Vec3(0.0, 0.0, 0.0);
   tube.fixed = {{Vec3(-1.0, -1.0, -1.0), Vec3(0.01, 1.0, 1.0)}};
   NodeMotionConfig head;
   head.nodes = {Vec3(kLength - 0.01, -1.0, -1.0), Vec3(1.0, 1.0, 1.0)};
-  const auto at = [&](double time, double x, double y, double z, double yaw) {
+  constexpr int kFrames = 24;
+  constexpr double kTurns = 3.0, kDuration = 2.4;
+  for (int k = 0; k <= kFrames; ++k)
+  {
+    const double part = static_cast<double>(k) / kFrames;
     PoseKeyframe frame;
-    frame.time_s = time;
-    frame.pose.position_m = Vec3(x, y, z);
-    frame.pose.rotation_rpy_rad = Vec3(0, 0, yaw);
+    frame.time_s = kDuration * part;
+    frame.pose.position_m = Vec3((1.0 - 0.6 * part) * kLength, 0.01 * part, 0.0);
+    frame.pose.rotation_rpy_rad =
+        Vec3(std::remainder(2.0 * M_PI * kTurns * part, 2.0 * M_PI), 0, 0);
     head.motion.push_back(frame);
-  };
-  at(0.0, kLength, 0.0, 0.0, 0.0);
-  at(0.4, 0.8 * kLength, 0.03, 0.0, 0.0);
-  at(2.0, -0.4 * kLength, 0.0, 0.0, 0.0);
+  }
   tube.keyframes = {head};
   if (touches_itself)
   {
@@ -41,29 +46,46 @@ SceneConfig snake(const ScratchFolder& folder, std::size_t tets, bool touches_it
   return config;
 }
 
-TEST(Snake, X)
+/** How deep a snake is in itself at most while it is driven, by a contact of its own, m. */
+double deepestOf(std::size_t tets, bool touches_itself)
 {
   const ScratchFolder folder;
-  for (const bool touches : {false, true})
+  Scene scene(snake(folder, tets, touches_itself));
+  const TissueInfo& info = scene.tissues()[0];
+  const auto count = static_cast<Index>(info.rest.nodes.size());
+  const Adjacency neighbours = nodeNeighbours(count, info.rest.tets);
+  const TissueBody body = {&info.rest.tets, &info.surface, 0, count, 0.002, &info.rest.nodes};
+  TissueContact probe({body, makeDistanceField(FieldConfig(), {&info.surface, &neighbours})},
+                      ContactOptions());
+  Snapshot snapshot;
+  double deepest = 0.0;
+  for (int k = 0; k < 260; ++k)
   {
-    Scene scene(snake(folder, getenv("TETS") ? atoi(getenv("TETS")) : 4000, touches));
-    std::printf("%zu tets\n", scene.tissues()[0].rest.tets.size());
-    Snapshot snapshot;
-    StageTimes ms;
-    for (int k = 0; k < 200; ++k)
-    {
-      const StepReport& r = scene.step();
-      ms.fem += r.ms.fem; ms.field += r.ms.field; ms.detect += r.ms.detect; ms.respond += r.ms.respond; ms.solve += r.ms.solve; ms.total += r.ms.total;
-      if (k % 10 == 9)
-      std::printf("  %d: newton %d res %.1e halv %d parts %d held %d detF %.2f contacts %d deepest %.2f mm, %.0f ms\n", k, r.newton_iterations, r.residual, r.halvings, r.parts, r.held, r.min_det_f,
-                  r.contacts, 1e3 * r.max_penetration_m, r.ms.total);
-    }
-    std::printf("  fem %.0f field %.0f detect %.0f respond %.0f solve %.0f total %.0f\n", ms.fem, ms.field, ms.detect, ms.respond, ms.solve, ms.total);
+    EXPECT_FALSE(scene.step().held) << k;
     scene.fillSnapshot(snapshot);
-    TetMesh mesh = scene.tissues()[0].rest;
-    mesh.nodes = snapshot.tissues[0].positions;
-    saveGmsh(touches ? "/tmp/snake_on.msh" : "/tmp/snake_off.msh", mesh);
+    const Points& x = snapshot.tissues[0].positions;
+    probe.beginStep(x, x, scene.config().time_step_s, true);
+    deepest = std::max(deepest, probe.active() ? probe.deepest(x) : 0.0);
   }
+  std::printf("  %zu tets, %s: at most %.2f mm deep in itself\n", info.rest.tets.size(),
+              touches_itself ? "touching itself" : "not touching itself", 1e3 * deepest);
+  return deepest;
+}
+
+// The tube is 20 mm thick, its wall 6 mm.
+constexpr double kShallow = 0.001, kThrough = 0.002;
+
+TEST(Snake, CoilsUpWhereItTouchesItselfAndElseGoesThroughItself)
+{
+  EXPECT_LT(deepestOf(3000, true), kShallow);
+  EXPECT_GT(deepestOf(3000, false), kThrough);
+}
+
+// Some minutes: asked for by --gtest_also_run_disabled_tests.
+TEST(Snake, DISABLED_CoilsUpAsATubeOf14000Tets)
+{
+  EXPECT_LT(deepestOf(14000, true), kShallow);
+  EXPECT_GT(deepestOf(14000, false), kThrough);
 }
 }  // namespace
 }  // namespace soft_tissue::test

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 #include "support/tissue_scenes.h"
 
@@ -20,23 +20,16 @@ class AtRest : public testing::TestWithParam<Response>
   {
     Snapshot snapshot;
     double moved = 0.0;
-    int newton = 0, linear = 0;
-    StageTimes ms;
     for (int k = 0; k < 1000; ++k)
     {
-      const StepReport& r = scene.step();
-      newton += r.newton_iterations; linear += r.linear_iterations;
-      ms.fem += r.ms.fem; ms.field += r.ms.field; ms.detect += r.ms.detect; ms.respond += r.ms.respond; ms.solve += r.ms.solve; ms.total += r.ms.total;
+      EXPECT_FALSE(scene.step().held) << k;
       scene.fillSnapshot(snapshot);
       const double speed = rmsSpeed(snapshot);
-      if (k % 100 == 99 && getenv("VERBOSE"))
-        std::printf("  %d: speed %.1e newton %d\n", k, speed, newton);
       if (!(speed < kStill))
       {
         moved = scene.time();
       }
     }
-    std::printf("  newton %d linear %d\n", newton, linear); std::printf("  fem %.0f field %.0f detect %.0f respond %.0f solve %.0f total %.0f\n", ms.fem, ms.field, ms.detect, ms.respond, ms.solve, ms.total);
     std::printf("  still after %.2f s, %.1e m/s after 10 s; deepest %.3f mm\n", moved,
                 rmsSpeed(snapshot), 1e3 * snapshot.report.max_penetration_m);
     return moved;
@@ -49,10 +42,10 @@ INSTANTIATE_TEST_SUITE_P(Responses, AtRest, testing::Values(Response::point, Res
 
 TEST_P(AtRest, AStackOfFiveBlocks)
 {
-  const std::string block = saved(folder_, "block.msh", makeBox({4, 4, 3}, {0.04, 0.04, 0.02}));
+  const std::string block = saved(folder_, "block.msh", makeBox({3, 3, 2}, {0.04, 0.04, 0.02}));
   SceneConfig config = tissueScene(block);
   config.gravity_m_per_s2 = Vec3(0.0, 0.0, -kGravity);
-  config.solver.tolerance = getenv("TOL") ? atof(getenv("TOL")) : 1e-5;
+  config.solver.tolerance = 1e-5;
   config.tissues[0].material.young_modulus_pa = 2e4;
   fixBelow(config, 1e-6);
   const char* names[] = {"tissue", "second", "third", "fourth", "fifth"};
@@ -105,7 +98,7 @@ TEST_P(AtRest, AnOrganInABowl)
 {
   SceneConfig config = lobeScene();
   config.gravity_m_per_s2 = Vec3(0.0, 0.0, -kGravity);
-  config.solver.tolerance = getenv("TOL") ? atof(getenv("TOL")) : 1e-5;
+  config.solver.tolerance = 1e-5;
   MeshShape shape;
   shape.mesh.file = folder_.path("bowl.stl");
   saveStl(shape.mesh.file, bowl(0.07, 0.08, 48, 12));
