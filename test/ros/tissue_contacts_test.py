@@ -17,7 +17,9 @@ from sim_client import NODE, PATIENCE_S, SimClient, wait_until
 
 GRAVITY_M_PER_S2 = 9.81
 DENSITY_KG_PER_M3 = 1000.0
-STEPS_TO_REST = 400
+STEPS_TO_REST = 200
+CUBE_AXIS = (-0.001, 0.001)  # m
+RIM = 0.0005  # m: many times the depth and the bulge
 
 
 def array(vectors):
@@ -54,9 +56,14 @@ class TissueContactsTest(unittest.TestCase):
         force = array(contacts.forces).sum(axis=0)
         self.assertAlmostEqual(cube_weight, 0.02**3 * DENSITY_KG_PER_M3 * GRAVITY_M_PER_S2, places=6)
         self.assertLess(np.linalg.norm(force - (0.0, 0.0, cube_weight)), 1e-3 * cube_weight)
-        self.assertGreater(array(contacts.normals)[:, 2].min(), 0.9)
-        self.assertEqual(stats.contacts, len(contacts.points))
-        self.assertGreater(stats.contacts, 0)
+        # At the cube's rim the side is nearest to what is in it.
+        off_axis = np.abs(array(contacts.points)[:, :2] - CUBE_AXIS).max(axis=1)
+        under_it = off_axis < 0.01 - RIM
+        self.assertGreater(np.count_nonzero(under_it), len(contacts.points) / 2)
+        self.assertGreater(array(contacts.normals)[under_it, 2].min(), 0.99)
+        in_tissue = np.array(contacts.tets) >= 0
+        self.assertEqual(stats.contacts, np.count_nonzero(in_tissue))
+        self.assertTrue(in_tissue.any())
         self.assertAlmostEqual(max(contacts.depths), stats.max_penetration, places=15)
 
     def test_points_tell_whose_they_are(self):
@@ -65,7 +72,11 @@ class TissueContactsTest(unittest.TestCase):
         self.assertEqual({names[i] for i in contacts.firsts}, {"cube"})
         self.assertEqual({names[i] for i in contacts.seconds}, {"bed"})
         self.assertEqual({names[i] for i in contacts.hosts}, {"cube", "bed"})
-        self.assertGreaterEqual(min(contacts.tets), 0)
+        friction = np.array(contacts.tets) == -1
+        self.assertTrue(friction.any())
+        self.assertEqual(np.array(contacts.depths)[friction].max(), 0.0)
+        across = np.einsum("ij,ij->i", array(contacts.forces), array(contacts.normals))[friction]
+        self.assertLess(np.abs(across).max(), 1e-12)
         self.assertEqual(contacts.header.frame_id, "world")
         forces, normals = array(contacts.forces), array(contacts.normals)
         areas = np.array(contacts.areas)

@@ -49,7 +49,7 @@ class PairRecords : public testing::Test
            "  - name: cube\n"
            "    mesh: {file: " SOURCE_DIR
            "/test/ros/cube.msh, length_unit: m}\n"
-           "    pose: {position_m: [-0.01, -0.01, 0.0305]}\n"
+           "    pose: {position_m: [-0.01, -0.01, 0.032]}\n"
            "    material: *soft\n"
            "tools:\n"
            "  - name: contacts\n"
