@@ -61,6 +61,11 @@ void BagRecorder::write(const soft_tissue::Snapshot& snapshot)
     {
       writeTool(tool, snapshot, stamp);
     }
+    if (!info_.tissue_pairs.empty())
+    {
+      bag_.write(kNamespace + "contacts", stamp.time,
+                 tissueContactsMessage(info_, snapshot, stamp));
+    }
     SimStats stats = statsMessage(snapshot, 0.0, stamp);
     stats.step_ms = 0.0;
     std::fill(stats.stage_ms.begin(), stats.stage_ms.end(), 0.0);

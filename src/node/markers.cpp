@@ -118,10 +118,10 @@ Marker arrow(const std::string& ns, const Vec3& from, const Vec3& to, double thi
   return marker;
 }
 
-/** Arrows at the strongest contacts, the strongest of them kLongestContact long; unused ids
- * deleted. */
-void addContactArrows(const std::string& ns, const std::vector<ContactPoint>& contacts,
-                      std::vector<Marker>& markers)
+/** Arrows at the strongest contacts, the strongest of them kLongestContact long; unused ids, of
+ * those from `first_id` on, deleted. */
+void addContactArrows(const std::string& ns, std::size_t first_id,
+                      const std::vector<ContactPoint>& contacts, std::vector<Marker>& markers)
 {
   std::vector<std::size_t> order(contacts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -146,7 +146,7 @@ void addContactArrows(const std::string& ns, const std::vector<ContactPoint>& co
       markers.push_back(makeMarker(ns, Marker::ARROW));
       markers.back().action = Marker::DELETE;
     }
-    markers.back().id = static_cast<int>(i);
+    markers.back().id = static_cast<int>(first_id + i);
   }
 }
 
@@ -219,9 +219,14 @@ visualization_msgs::MarkerArray MarkerBuilder::build(const Snapshot& snapshot, T
     const ToolState& tool = snapshot.tools[i];
     array.markers.push_back(tools_[i]);
     array.markers.back().pose = poseMessage(tool.X_WT);
-    addContactArrows(info_.tools[i].name + "/contacts", tool.contacts, array.markers);
+    addContactArrows(info_.tools[i].name + "/contacts", 0, tool.contacts, array.markers);
     array.markers.push_back(
         forceArrow(info_.tools[i].name + "/force", tool, options_.force_scale_m_per_n));
+  }
+  for (std::size_t i = 0; i < snapshot.tissue_pairs.size(); ++i)
+  {
+    addContactArrows("tissue_pairs", i * kMaxContactArrows, snapshot.tissue_pairs[i].contacts,
+                     array.markers);
   }
   for (Marker& marker : array.markers)
   {

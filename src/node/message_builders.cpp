@@ -1,6 +1,5 @@
 #include "soft_tissue_sim/node/message_builders.h"
 
-#include "soft_tissue_sim/base/hash.h"
 #include "soft_tissue_sim/node/geometry_conversions.h"
 
 namespace soft_tissue_sim
@@ -38,25 +37,21 @@ std::vector<std::uint32_t> flatIndices(const Tuples& tuples)
   return flat;
 }
 
-std::uint64_t topologyId(const soft_tissue::TetMesh& mesh)
+/** What messages of tools and of tissues have in common. */
+template <typename Contacts>
+void appendContact(const soft_tissue::ContactPoint& contact, Contacts& message)
 {
-  soft_tissue::StateHash hash;
-  hash.addValue(mesh.nodes.size());
-  hash.add(mesh.tets.data(), mesh.tets.size() * sizeof(soft_tissue::Tet));
-  return hash.value();
+  const double normal_force = contact.force_W.dot(contact.normal_W);
+  message.tets.push_back(contact.tet);
+  message.points.push_back(pointMessage(contact.position_W));
+  message.normals.push_back(vectorMessage(contact.normal_W));
+  message.depths.push_back(contact.depth);
+  message.areas.push_back(contact.area);
+  message.pressures.push_back(contact.area > 0.0 ? normal_force / contact.area : 0.0);
+  message.forces.push_back(vectorMessage(contact.force_W));
 }
 
 }  // namespace
-
-SceneInfo::SceneInfo(const soft_tissue::Scene& scene)
-    : tissues(scene.tissues()), tools(scene.tools())
-{
-  for (const soft_tissue::TissueInfo& tissue : tissues)
-  {
-    tissue_names.push_back(tissue.name);
-    topology_ids.push_back(topologyId(tissue.rest));
-  }
-}
 
 TissueMesh meshMessage(const SceneInfo& info, std::size_t tissue, const Stamp& stamp)
 {
@@ -134,14 +129,27 @@ ToolContacts contactsMessage(const SceneInfo& info, const Snapshot& snapshot, st
   message.tissue_names = info.tissue_names;
   for (const soft_tissue::ContactPoint& contact : snapshot.tools[tool].contacts)
   {
-    const double normal_force = contact.force_W.dot(contact.normal_W);
     message.tissues.push_back(static_cast<std::uint32_t>(contact.tissue));
-    message.points.push_back(pointMessage(contact.position_W));
-    message.normals.push_back(vectorMessage(contact.normal_W));
-    message.depths.push_back(contact.depth);
-    message.areas.push_back(contact.area);
-    message.pressures.push_back(contact.area > 0.0 ? normal_force / contact.area : 0.0);
-    message.forces.push_back(vectorMessage(contact.force_W));
+    appendContact(contact, message);
+  }
+  return message;
+}
+
+TissueContacts tissueContactsMessage(const SceneInfo& info, const Snapshot& snapshot,
+                                     const Stamp& stamp)
+{
+  TissueContacts message;
+  setHeader(message.header, stamp);
+  message.tissue_names = info.tissue_names;
+  for (const soft_tissue::TissuePairState& pair : snapshot.tissue_pairs)
+  {
+    for (const soft_tissue::ContactPoint& contact : pair.contacts)
+    {
+      message.firsts.push_back(static_cast<std::uint32_t>(pair.first));
+      message.seconds.push_back(static_cast<std::uint32_t>(pair.second));
+      message.hosts.push_back(static_cast<std::uint32_t>(contact.tissue));
+      appendContact(contact, message);
+    }
   }
   return message;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "contact_sums.h"
 #include "soft_tissue_sim/node/json_writer.h"
 
 namespace soft_tissue_sim
@@ -33,18 +34,25 @@ double nearestRank(std::vector<double> values, double fraction)
 
 }  // namespace
 
-RunSummary::RunSummary(const soft_tissue::Scene& scene)
-    : scene_(scene.config().file), time_step_s_(scene.config().time_step_s)
+RunSummary::RunSummary(const soft_tissue::SceneConfig& config, const SceneInfo& info)
+    : scene_(config.file), time_step_s_(config.time_step_s)
 {
-  for (const soft_tissue::TissueInfo& tissue : scene.tissues())
+  for (const soft_tissue::TissueInfo& tissue : info.tissues)
   {
     rest_.push_back(tissue.rest.nodes);
     bodies_.push_back({tissue.name, tissue.rest.nodes.size(), tissue.rest.tets.size(),
                        tissue.surface.triangles.size(), tissue.fixed_nodes.size()});
   }
-  for (const soft_tissue::ToolInfo& tool : scene.tools())
+  for (const soft_tissue::ToolInfo& tool : info.tools)
   {
-    tools_.push_back({tool.name});
+    tools_.push_back({tool.name, {}});
+  }
+  for (const TissuePairInfo& pair : info.tissue_pairs)
+  {
+    pairs_.emplace_back();
+    pairs_.back().first = info.tissue_names[pair.first];
+    pairs_.back().second = info.tissue_names[pair.second];
+    pairs_.back().name = pair.name;
   }
 }
 
@@ -83,18 +91,36 @@ void RunSummary::add(const soft_tissue::Snapshot& snapshot)
   {
     addTool(tools_[i], snapshot.tools[i], report.time_s);
   }
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+  {
+    addPair(pairs_[i], snapshot.tissue_pairs[i], report.time_s);
+  }
 }
 
 void RunSummary::addTool(Tool& sum, const soft_tissue::ToolState& tool, double time_s)
 {
   const double force = tool.wrench_W.force.norm();
   finite_ = finite_ && std::isfinite(force);
-  sum.force_sum_n += force;
-  sum.most_contacts = std::max(sum.most_contacts, tool.contacts.size());
-  if (force > sum.peak_force_n)
+  sum.force.add(force, tool.contacts.size(), time_s);
+}
+
+void RunSummary::addPair(Pair& sum, const soft_tissue::TissuePairState& pair, double time_s)
+{
+  const ContactSums sums = sumOf(pair.contacts);
+  sum.last_force_W = sums.force_W;
+  sum.max_penetration_m = std::max(sum.max_penetration_m, sums.deepest_m);
+  finite_ = finite_ && sums.force_W.allFinite();
+  sum.force.add(sums.force_W.norm(), pair.contacts.size(), time_s);
+}
+
+void RunSummary::Force::add(double force_n, std::size_t contacts, double time_s)
+{
+  sum_n += force_n;
+  most_contacts = std::max(most_contacts, contacts);
+  if (force_n > peak_n)
   {
-    sum.peak_force_n = force;
-    sum.peak_force_time_s = time_s;
+    peak_n = force_n;
+    peak_time_s = time_s;
   }
 }
 
@@ -102,6 +128,11 @@ std::string RunSummary::json(double wall_s) const
 {
   const double count = steps_ > 0 ? static_cast<double>(steps_) : 1.0;
   const double simulated = static_cast<double>(steps_) * time_step_s_;
+  const auto write = [&](const Force& force, JsonWriter& to) {
+    to.value("peak_force_n", force.peak_n).value("peak_force_time_s", force.peak_time_s);
+    to.value("mean_force_n", force.sum_n / count);
+    to.value("most_contacts", std::uint64_t{force.most_contacts});
+  };
   JsonWriter json;
   json.beginObject();
   json.value("scene", scene_).value("time_step_s", time_step_s_).value("steps", steps_);
@@ -132,10 +163,19 @@ std::string RunSummary::json(double wall_s) const
   json.endArray().beginArray("tools");
   for (const Tool& tool : tools_)
   {
-    json.beginObject().value("name", tool.name).value("peak_force_n", tool.peak_force_n);
-    json.value("peak_force_time_s", tool.peak_force_time_s);
-    json.value("mean_force_n", tool.force_sum_n / count);
-    json.value("most_contacts", std::uint64_t{tool.most_contacts}).endObject();
+    json.beginObject().value("name", tool.name);
+    write(tool.force, json);
+    json.endObject();
+  }
+  json.endArray().beginArray("tissue_pairs");
+  for (const Pair& pair : pairs_)
+  {
+    json.beginObject().value("first", pair.first).value("second", pair.second);
+    write(pair.force, json);
+    json.value("max_penetration_m", pair.max_penetration_m);
+    json.value("last_force_x_n", pair.last_force_W.x());
+    json.value("last_force_y_n", pair.last_force_W.y());
+    json.value("last_force_z_n", pair.last_force_W.z()).endObject();
   }
   json.endArray().endObject();
   return json.text();
@@ -151,8 +191,13 @@ std::string RunSummary::text(double wall_s) const
        << " mm, " << not_converged_ << " steps not converged, " << held_ << " held\n";
   for (const Tool& tool : tools_)
   {
-    text << tool.name << ": peak force " << tool.peak_force_n << " N at " << tool.peak_force_time_s
+    text << tool.name << ": peak force " << tool.force.peak_n << " N at " << tool.force.peak_time_s
          << " s\n";
+  }
+  for (const Pair& pair : pairs_)
+  {
+    text << pair.name << ": peak force " << pair.force.peak_n << " N at " << pair.force.peak_time_s
+         << " s, deepest penetration " << 1.0e3 * pair.max_penetration_m << " mm\n";
   }
   text << "state hash " << hexadecimal(state_hash_) << "\n";
   return text.str();

@@ -194,7 +194,7 @@ void runScene(const RunOptions& options)
     }
   }
   const SceneInfo info(scene);
-  Recorders recorders{RunSummary(scene), nullptr, nullptr};
+  Recorders recorders{RunSummary(config, info), nullptr, nullptr};
   if (!options.bag_out.empty())
   {
     recorders.bag = std::make_unique<BagRecorder>(options.bag_out, info, options.world_frame,
@@ -202,7 +202,7 @@ void runScene(const RunOptions& options)
   }
   if (!options.csv.empty())
   {
-    recorders.csv = std::make_unique<CsvRecorder>(options.csv, info.tools);
+    recorders.csv = std::make_unique<CsvRecorder>(options.csv, info);
   }
 
   SummaryFile summary_file(options.json);

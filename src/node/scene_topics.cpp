@@ -8,10 +8,14 @@ SceneTopics::SceneTopics(ros::NodeHandle& node, const SceneInfo& info, TissueDep
                          const MarkerOptions& options, bool publish_clock,
                          const std::string& world_frame,
                          const ros::SubscriberStatusCallback& on_subscriber)
-    : builder_(info, options), depths_(depths), world_frame_(world_frame)
+    : info_(info), builder_(info, options), depths_(depths), world_frame_(world_frame)
 {
   stats_ = node.advertise<SimStats>("stats", 1, on_subscriber);
   markers_ = node.advertise<visualization_msgs::MarkerArray>("markers", 1, on_subscriber);
+  if (!info.tissue_pairs.empty())
+  {
+    contacts_ = node.advertise<TissueContacts>("contacts", 1, on_subscriber);
+  }
   if (publish_clock)
   {
     clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10, true);
@@ -42,6 +46,14 @@ void SceneTopics::publishMarkers(const Frame& frame)
   }
   ++marker_arrays_built_;
   markers_.publish(array);
+}
+
+void SceneTopics::publishContacts(const Frame& frame) const
+{
+  if (contacts_ && contacts_.getNumSubscribers() > 0)
+  {
+    contacts_.publish(tissueContactsMessage(info_, frame.snapshot, {frame.stamp, world_frame_}));
+  }
 }
 
 void SceneTopics::publishClock(const Frame& frame) const

@@ -97,6 +97,8 @@ void SimNode::addOutputs()
   {
     publisher_.addStream(0.0, [this](const Frame& frame) { scene_topics_->publishClock(frame); });
   }
+  publisher_.addStream(rates.tool_hz,
+                       [this](const Frame& frame) { scene_topics_->publishContacts(frame); });
   for (std::size_t tool = 0; tool < info_.tools.size(); ++tool)
   {
     ToolTopics& topics = tool_topics_.emplace_back(node_, info_, tool, world, on_subscriber);

@@ -13,7 +13,12 @@ bool hasName(const Bodies& bodies, const std::string& name)
                      [&](const auto& body) { return body.name == name; });
 }
 
-/** Tissues and tools share one name space, for their names become ROS namespaces. */
+/** Of markers of contacts between tissues; topics need no such word, for none of a tissue or tool
+ * is its bare name. */
+const char* const kMarkersOfPairs = "tissue_pairs";
+
+/** Tissues and tools share one name space, for their names become namespaces of topics and
+ * markers. */
 void checkNames(const Item& scene)
 {
   std::vector<Item> names;
@@ -27,6 +32,10 @@ void checkNames(const Item& scene)
   }
   for (auto name = names.begin(); name != names.end(); ++name)
   {
+    if (name->scalar() == kMarkersOfPairs)
+    {
+      name->rejectValue("is what markers of contacts are called, must be another name");
+    }
     const auto first = std::find_if(
         names.begin(), name, [&](const Item& other) { return other.scalar() == name->scalar(); });
     if (first != name)

@@ -125,8 +125,9 @@ const Section<TissueConfig>& tissueSection()
 {
   static const Section<TissueConfig> section =
       Section<TissueConfig>("tissue", "A soft body.")
-          .required("name", &TissueConfig::name, name(),
-                    "Its ROS namespace; unlike that of any other tissue or tool.")
+          .required(
+              "name", &TissueConfig::name, name(),
+              "Its ROS namespace; unlike that of any other tissue or tool, and not tissue_pairs.")
           .required("mesh", &TissueConfig::mesh, mapOf(meshSection()), "Its rest shape.")
           .optional("pose", &TissueConfig::pose, mapOf(poseSection()),
                     "Where the mesh file's frame stands in the world at rest.")

@@ -88,8 +88,9 @@ const Section<ToolConfig>& toolSection()
 {
   static const Section<ToolConfig> section =
       Section<ToolConfig>("tool", "A rigid body that something outside the simulation moves.")
-          .required("name", &ToolConfig::name, name(),
-                    "Its ROS namespace; unlike that of any other tissue or tool.")
+          .required(
+              "name", &ToolConfig::name, name(),
+              "Its ROS namespace; unlike that of any other tissue or tool, and not tissue_pairs.")
           .required("shape", setShapes, listOf(mapOf(toolShapeSection()), 1, true),
                     "Its solid, or several that move as one.")
           .optional("initial_pose", &ToolConfig::initial_pose, mapOf(poseSection()),

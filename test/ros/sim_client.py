@@ -19,16 +19,18 @@ PATIENCE_S = 60.0
 POLL_S = 0.01
 
 
+TOOL_TOPICS = {"stats": SimStats, "probe/measured_cp": PoseStamped, "probe/body/measured_cf": WrenchStamped,
+               "probe/spatial/measured_cf": WrenchStamped, "probe/contacts": ToolContacts}
+
+
 class SimClient:
-    def __init__(self):
+    def __init__(self, topics=TOOL_TOPICS):
         self.newest = {}
         self.lock = threading.Lock()
         self.by_stamp = {}  # messages are called back in threads of their own: only under the lock
         self.diagnostics = {}
         self.levels = {}
-        self.topics = {"stats": SimStats, "probe/measured_cp": PoseStamped,
-                       "probe/body/measured_cf": WrenchStamped,
-                       "probe/spatial/measured_cf": WrenchStamped, "probe/contacts": ToolContacts}
+        self.topics = topics
         self.subscribers = [self.listen(*topic) for topic in self.topics.items()]
         self.subscribers.append(rospy.Subscriber("/diagnostics", DiagnosticArray, self._diagnose))
         self.publisher = rospy.Publisher(NODE + "/probe/servo_cp", PoseStamped, queue_size=1)

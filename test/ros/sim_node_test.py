@@ -127,6 +127,11 @@ class SimNodeTest(unittest.TestCase):
         self.assertEqual(len(field.depths), 196)
         self.assertAlmostEqual(max(field.depths), 0.01, places=3)  # the middle of 3 cells
 
+    def test_a_scene_without_pairs_of_tissues_has_no_topic_for_them(self):
+        topics = [name for name, _ in rospy.get_published_topics(NODE)]
+        self.assertIn(NODE + "/probe/contacts", topics)
+        self.assertNotIn(NODE + "/contacts", topics)
+
     def test_bad_commands_are_refused_and_the_simulation_goes_on(self):
         client = self.client
         client.move_to(ABOVE)

@@ -2,19 +2,18 @@
 
 #include <fstream>
 #include <string>
-#include <vector>
 
-#include "soft_tissue_sim/scene/scene.h"
+#include "soft_tissue_sim/node/scene_info.h"
 
 namespace soft_tissue_sim
 {
-/** One line a step: time, how the step went, and per tool pose and wrench (world axes, SI units).
- */
+/** One line a step: time, how the step went, per tool pose and wrench, per pair of tissues the
+ * force on its first (world axes, SI units). */
 class CsvRecorder
 {
  public:
   /** @throws soft_tissue::Error if the file can't be written */
-  CsvRecorder(const std::string& path, const std::vector<soft_tissue::ToolInfo>& tools);
+  CsvRecorder(const std::string& path, const SceneInfo& info);
 
   void write(const soft_tissue::Snapshot& snapshot);
   /** @throws soft_tissue::Error if not all could be written */
@@ -22,6 +21,7 @@ class CsvRecorder
 
  private:
   void writeTool(const soft_tissue::ToolState& tool);
+  void writePair(const soft_tissue::TissuePairState& pair);
 
   std::string path_;
   std::ofstream stream_;

@@ -28,7 +28,8 @@ struct MarkerOptions
  * Markers of a scene; ns and id of each stay the same from one array to the next.
  *
  * Namespaces: `<tissue>`, `<tissue>/fixed`, `<tissue>/distance/slice`, `<tissue>/distance/nodes`,
- * `<tool>`, `<tool>/contacts` (the strongest ones), `<tool>/force`.
+ * `<tool>`, `<tool>/contacts` (the strongest ones), `<tool>/force`, `tissue_pairs` (the strongest
+ * contacts of each pair, which no tissue or tool may be called).
  */
 class MarkerBuilder
 {
@@ -48,7 +49,7 @@ class MarkerBuilder
   std::vector<visualization_msgs::Marker> tools_;  ///< tool surfaces, without pose and stamp
 };
 
-/** Most contact arrows a tool gets. */
+/** Most contact arrows a tool, or a pair of tissues, gets. */
 constexpr std::size_t kMaxContactArrows = 50;
 
 }  // namespace soft_tissue_sim

@@ -4,6 +4,7 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/time.h>
 #include <soft_tissue_sim/SimStats.h>
+#include <soft_tissue_sim/TissueContacts.h>
 #include <soft_tissue_sim/TissueField.h>
 #include <soft_tissue_sim/TissueMesh.h>
 #include <soft_tissue_sim/TissueState.h>
@@ -12,21 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "soft_tissue_sim/scene/scene.h"
+#include "soft_tissue_sim/node/scene_info.h"
 
 namespace soft_tissue_sim
 {
-/** A scene's unchanging part as messages need it: names, rest meshes, topology ids. */
-struct SceneInfo
-{
-  explicit SceneInfo(const soft_tissue::Scene& scene);
-
-  std::vector<soft_tissue::TissueInfo> tissues;
-  std::vector<soft_tissue::ToolInfo> tools;
-  std::vector<std::string> tissue_names;
-  std::vector<std::uint64_t> topology_ids;  ///< per tissue: hash of node count and tets
-};
-
 /** Where and when a message's content holds. */
 struct Stamp
 {
@@ -49,8 +39,12 @@ geometry_msgs::WrenchStamped bodyWrenchMessage(const soft_tissue::ToolState& too
  * world. */
 geometry_msgs::WrenchStamped spatialWrenchMessage(const soft_tissue::ToolState& tool,
                                                   const Stamp& stamp);
+/** What pushes one tool. */
 ToolContacts contactsMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,
                              std::size_t tool, const Stamp& stamp);
+/** What pushes tissues: the contacts of all pairs. */
+TissueContacts tissueContactsMessage(const SceneInfo& info, const soft_tissue::Snapshot& snapshot,
+                                     const Stamp& stamp);
 SimStats statsMessage(const soft_tissue::Snapshot& snapshot, double real_time_factor,
                       const Stamp& stamp);
 

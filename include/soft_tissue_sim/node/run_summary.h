@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "soft_tissue_sim/scene/scene.h"
+#include "soft_tissue_sim/node/scene_info.h"
 
 namespace soft_tissue_sim
 {
@@ -12,7 +12,7 @@ namespace soft_tissue_sim
 class RunSummary
 {
  public:
-  explicit RunSummary(const soft_tissue::Scene& scene);
+  RunSummary(const soft_tissue::SceneConfig& config, const SceneInfo& info);
 
   void add(const soft_tissue::Snapshot& snapshot);
 
@@ -30,22 +30,38 @@ class RunSummary
     std::size_t nodes, tets, triangles, fixed_nodes;
     double max_displacement_m = 0.0;  ///< over the run
   };
+  /** On a tool, or on the first tissue of a pair, over the run. */
+  struct Force
+  {
+    void add(double force_n, std::size_t contacts, double time_s);
+
+    double peak_n = 0.0;
+    double peak_time_s = 0.0;
+    double sum_n = 0.0;
+    std::size_t most_contacts = 0;
+  };
   struct Tool
   {
     std::string name;
-    double peak_force_n = 0.0;
-    double peak_force_time_s = 0.0;
-    double force_sum_n = 0.0;
-    std::size_t most_contacts = 0;
+    Force force;
+  };
+  struct Pair
+  {
+    std::string first, second, name;
+    Force force;
+    soft_tissue::Vec3 last_force_W = soft_tissue::Vec3::Zero();  ///< N, of the last step
+    double max_penetration_m = 0.0;
   };
 
   void addTool(Tool& sum, const soft_tissue::ToolState& tool, double time_s);
+  void addPair(Pair& sum, const soft_tissue::TissuePairState& pair, double time_s);
 
   std::string scene_;
   double time_step_s_;
   std::vector<soft_tissue::Points> rest_;
   std::vector<Body> bodies_;
   std::vector<Tool> tools_;
+  std::vector<Pair> pairs_;
   std::uint64_t steps_ = 0;
   std::uint64_t not_converged_ = 0, held_ = 0, halvings_ = 0;
   std::uint64_t newton_iterations_ = 0, linear_iterations_ = 0;

@@ -24,6 +24,12 @@ std::vector<BadScene> badNames()
        "tissues[1].name = liver, is tissues[0].name too, must be new"},
       {"name: hook", "name: probe", "tools[1].name = probe, is tools[0].name too, must be new"},
       {"name: hook", "name: kidney", "tools[1].name = kidney, is tissues[1].name too, must be new"},
+      {"name: kidney", "name: tissue_pairs",
+       "tissues[1].name = tissue_pairs, is what markers of contacts are called, must be another "
+       "name"},
+      {"name: hook", "name: tissue_pairs",
+       "tools[1].name = tissue_pairs, is what markers of contacts are called, must be another "
+       "name"},
       {"[liver, probe]", "[lever, probe]",
        "contacts[0].between = [lever, probe], there is no tissue or tool 'lever'"},
       {"[liver, probe]", "[liver, proof]",
