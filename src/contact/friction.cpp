@@ -9,8 +9,8 @@ namespace soft_tissue
 {
 namespace
 {
-/** Below this speed of sliding the force is less than Coulomb's, m/s. */
-constexpr double kStickSpeed = 1e-4;
+/** Slip from which on the force is Coulomb's, m. */
+constexpr double kStick = 2e-5;
 
 /** How far the second body has slid along the first. */
 Vec3 slip(const Grip& grip, const Points& x)
@@ -20,16 +20,15 @@ Vec3 slip(const Grip& grip, const Points& x)
 }
 }  // namespace
 
-void Friction::begin(const Points& x, double step_s)
+void Friction::begin(const Points& x)
 {
   slipped_.clear();
   for (const Grip& grip : grips_)
   {
-    const Vec3 by = slip(grip, x) / stick_m_;
+    const Vec3 by = slip(grip, x) / kStick;
     slipped_.push_back({grip.place, by / std::max(1.0, by.norm())});
   }
   next_slipped_ = 0;
-  stick_m_ = kStickSpeed * step_s;
   grips_.clear();
 }
 
@@ -42,7 +41,7 @@ void Friction::add(Grip grip)
   if (next_slipped_ < slipped_.size() && slipped_[next_slipped_].place == grip.place)
   {
     const Vec3& by = slipped_[next_slipped_].by;
-    grip.stuck_at -= stick_m_ * (by - grip.normal.dot(by) * grip.normal);
+    grip.stuck_at -= kStick * (by - grip.normal.dot(by) * grip.normal);
   }
   grips_.push_back(grip);
 }
@@ -56,8 +55,8 @@ void Friction::forget()
 /** Of full strength from the stick length on, below it 2 y - y^2 of that, y = slip / stick. */
 double Friction::forcePerSlip(const Grip& grip, double slip) const
 {
-  const double y = slip / stick_m_;
-  return coefficient_ * grip.press / stick_m_ * (y < 1.0 ? 2.0 - y : 1.0 / y);
+  const double y = slip / kStick;
+  return coefficient_ * grip.press / kStick * (y < 1.0 ? 2.0 - y : 1.0 / y);
 }
 
 /** What that force adds up to, zero at rest. */
@@ -66,9 +65,8 @@ double Friction::value(const Points& x) const
   double sum = 0.0;
   for (const Grip& grip : grips_)
   {
-    const double y = slip(grip, x).norm() / stick_m_;
-    sum +=
-        coefficient_ * grip.press * stick_m_ * (y < 1.0 ? y * y * (1.0 - y / 3.0) : y - 1.0 / 3.0);
+    const double y = slip(grip, x).norm() / kStick;
+    sum += coefficient_ * grip.press * kStick * (y < 1.0 ? y * y * (1.0 - y / 3.0) : y - 1.0 / 3.0);
   }
   return sum;
 }
@@ -91,8 +89,8 @@ void Friction::addHessian(const Points& x, BlockMatrix& hessian) const
   for (const Grip& grip : grips_)
   {
     const Vec3 along = slip(grip, x);
-    const double length = along.norm(), y = length / stick_m_;
-    const double scale = coefficient_ * grip.press / stick_m_;
+    const double length = along.norm(), y = length / kStick;
+    const double scale = coefficient_ * grip.press / kStick;
     const double ratio = forcePerSlip(grip, length);
     const double slope = y < 1.0 ? 2.0 * scale * (1.0 - y) : 0.0;  // of the force by the slip
     const Mat3 plane = Mat3::Identity() - grip.normal * grip.normal.transpose();

@@ -52,8 +52,8 @@ class Friction
 
   bool acts() const { return coefficient_ > 0.0; }
 
-  /** Begins a step that takes step_s > 0 at x, where the last one ended. */
-  void begin(const Points& x, double step_s);
+  /** Begins a step at x, where the last one ended. */
+  void begin(const Points& x);
   /** Adds a grip, by ascending places; it goes on with what was slipped at its place. */
   void add(Grip grip);
   /** Forgets all slips. */
@@ -77,7 +77,6 @@ class Friction
   double forcePerSlip(const Grip& grip, double slip) const;
 
   double coefficient_;
-  double stick_m_ = 0.0;  ///< slip of full friction
   std::vector<Grip> grips_;
   std::vector<Slipped> slipped_;  ///< when the step began, by ascending places
   std::size_t next_slipped_ = 0;  ///< the first that no grip has come past

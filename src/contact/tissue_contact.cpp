@@ -68,15 +68,15 @@ TissueContact::TissueContact(Side self, const ContactOptions& options)
 
 TissueContact::~TissueContact() = default;
 
-void TissueContact::beginStep(const Points& x, const Points& towards, double step_s, bool refresh)
+void TissueContact::beginStep(const Points& x, const Points& towards, bool refresh)
 {
-  lagFriction(x, step_s, refresh);
+  lagFriction(x, refresh);
   lagPlaces(x, towards, refresh);
 }
 
 /** Friction of a step is that of the contacts it starts with. It acts between the points of both
  * bodies that are at one place, so it turns nothing. */
-void TissueContact::lagFriction(const Points& x, double step_s, bool refresh)
+void TissueContact::lagFriction(const Points& x, bool refresh)
 {
   if (!friction().acts())
   {
@@ -88,7 +88,7 @@ void TissueContact::lagFriction(const Points& x, double step_s, bool refresh)
   }
   const std::vector<ContactSample>& touching = samples(x);
   const ScopedTimer timer(times().respond);
-  friction().begin(x, step_s);
+  friction().begin(x);
   forEachPress(touching, [&](const ContactSample& sample, std::uint64_t place) {
     addGrip(sample, place, x);
   });

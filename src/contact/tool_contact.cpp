@@ -81,15 +81,15 @@ ToolContact::ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
 ToolContact::~ToolContact() = default;
 
 void ToolContact::beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
-                            double step_s, bool refresh)
+                            bool refresh)
 {
-  lagFriction(x, X_WT_before, X_WT, step_s, refresh);
+  lagFriction(x, X_WT_before, X_WT, refresh);
   lagPlaces(x, X_WT_before, X_WT, refresh);
 }
 
 /** Friction of a step is that of the contacts it starts with: where the last one ended, mostly. */
 void ToolContact::lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
-                              double step_s, bool refresh)
+                              bool refresh)
 {
   if (!friction().acts())
   {
@@ -101,7 +101,7 @@ void ToolContact::lagFriction(const Points& x, const Pose& X_WT_before, const Po
   }
   const std::vector<ContactSample>& touching = samples(x);
   const ScopedTimer timer(times().respond);
-  friction().begin(x, step_s);
+  friction().begin(x);
   const Pose motion = X_WT * X_WT_before.inverse();
   forEachPress(touching, [&](const ContactSample& sample, std::uint64_t place) {
     Grip grip = gripOf(sample, x, motion);

@@ -124,7 +124,6 @@ double Scene::Impl::motionOfTissues(const Contact& contact) const
  * become terms. */
 void Scene::Impl::beginContacts(double from, double to)
 {
-  const double h = (to - from) * config_.time_step_s;
   for (const Contact& contact : contacts_)
   {
     contact.term->setStiffening(std::max(1.0, kRelaxed * contact.term->stiffening()));
@@ -132,11 +131,11 @@ void Scene::Impl::beginContacts(double from, double to)
     {
       const Tool& tool = tools_[contact.other];
       contact.with_tool->beginStep(x_, interpolate(tool.X_WT, tool.X_WT_goal, from),
-                                   interpolate(tool.X_WT, tool.X_WT_goal, to), h, contact.refresh);
+                                   interpolate(tool.X_WT, tool.X_WT_goal, to), contact.refresh);
     }
     else
     {
-      contact.with_tissue->beginStep(x_, extrapolated_, h, contact.refresh);
+      contact.with_tissue->beginStep(x_, extrapolated_, contact.refresh);
     }
     if (contact.term->active())
     {

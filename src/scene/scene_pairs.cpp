@@ -125,7 +125,7 @@ void Scene::Impl::refuseDeepStart()
       continue;
     }
     const Tool& tool = tools_[contact.other];
-    contact.with_tool->beginStep(x_, tool.X_WT, tool.X_WT, config_.time_step_s, true);
+    contact.with_tool->beginStep(x_, tool.X_WT, tool.X_WT, true);
     const double deepest = contact.term->active() ? contact.term->deepest(x_) : 0.0;
     if (deepest > kDeepStart * contact.size_m)
     {

@@ -64,7 +64,7 @@ double deepestOf(std::size_t tets, bool touches_itself)
     EXPECT_FALSE(scene.step().held) << k;
     scene.fillSnapshot(snapshot);
     const Points& x = snapshot.tissues[0].positions;
-    probe.beginStep(x, x, scene.config().time_step_s, true);
+    probe.beginStep(x, x, true);
     deepest = std::max(deepest, probe.active() ? probe.deepest(x) : 0.0);
   }
   std::printf("  %zu tets, %s: at most %.2f mm deep in itself\n", info.rest.tets.size(),

@@ -139,7 +139,7 @@ struct ContactScene
   ContactScene& operator=(const ContactScene&) = delete;
 
   /** A step from x with the tool at rest at X_WT. */
-  void begin(const Points& x, const Pose& X_WT) { contact->beginStep(x, X_WT, X_WT, 0.01, true); }
+  void begin(const Points& x, const Pose& X_WT) { contact->beginStep(x, X_WT, X_WT, true); }
 };
 
 /** Adds the force of the tissue on the tool, N, and its moment about `reference`, N m. */

@@ -110,10 +110,9 @@ class ContactTwin
   }
 
   /** What the tool does to the nodes at the end of a step that went from x0 to x. */
-  Load onNodes(const Points& x0, const Pose& X_before, const Points& x, const Pose& X_after,
-               double step_s)
+  Load onNodes(const Points& x0, const Pose& X_before, const Points& x, const Pose& X_after)
   {
-    contact_->beginStep(x0, X_before, X_after, step_s, true);
+    contact_->beginStep(x0, X_before, X_after, true);
     Points gradient(x.size(), Vec3::Zero());
     contact_->addGradient(x, gradient);
     Load load;

@@ -152,9 +152,8 @@ TEST_P(ForceBalance, ToolFeelsTheOppositeOfWhatTheNodesFeel)
     scene.fillSnapshot(after);
     ASSERT_FALSE(after.report.held);
     ASSERT_EQ(after.report.halvings, 0);
-    const Load nodes =
-        twin.onNodes(before.tissues[0].positions, before.tools[0].X_WT, after.tissues[0].positions,
-                     after.tools[0].X_WT, scene.config().time_step_s);
+    const Load nodes = twin.onNodes(before.tissues[0].positions, before.tools[0].X_WT,
+                                    after.tissues[0].positions, after.tools[0].X_WT);
     const Load tool = loadOn(after.tools[0]);
     const double force = (tool.force + nodes.force).norm();
     const double moment = (tool.moment + nodes.moment).norm();

@@ -103,7 +103,7 @@ TEST_P(AtRest, AnOrganInABowl)
   shape.mesh.file = folder_.path("bowl.stl");
   saveStl(shape.mesh.file, bowl(0.07, 0.08, 48, 12));
   PoseConfig pose;
-  pose.position_m = Vec3(0.003, -0.002, -0.035);
+  pose.position_m = Vec3(0.003, -0.002, -0.06);
   addTool(config, shape, pose, GetParam());
   config.contacts[0].friction = 0.3;
   config.contacts[0].stiffness_pa_per_m.reset();

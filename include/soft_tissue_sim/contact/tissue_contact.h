@@ -34,10 +34,9 @@ class TissueContact : public ContactTerm
    * Takes the state a step starts from.
    * @param x        positions at the start of the step
    * @param towards  where bodies go to if nothing stops them: what is near there is looked for
-   * @param step_s   length of the step, > 0
    * @param refresh  march the nodal depths anew on x; false keeps those there are
    */
-  void beginStep(const Points& x, const Points& towards, double step_s, bool refresh);
+  void beginStep(const Points& x, const Points& towards, bool refresh);
 
   bool active() const override;
 
@@ -46,7 +45,7 @@ class TissueContact : public ContactTerm
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
   void forgetField() override;
-  void lagFriction(const Points& x, double step_s, bool refresh);
+  void lagFriction(const Points& x, bool refresh);
   void lagPlaces(const Points& x, const Points& towards, bool refresh);
   void addGrip(const ContactSample& sample, std::uint64_t place, const Points& x);
 

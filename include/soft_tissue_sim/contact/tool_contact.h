@@ -28,12 +28,10 @@ class ToolContact : public ContactTerm
    * @param x            positions at the start of the step
    * @param X_WT_before  tool pose at the start of the step
    * @param X_WT         tool pose at its end: the pose contact is evaluated at
-   * @param step_s       length of the step, > 0
    * @param refresh      march the nodal depths anew on x; false keeps those there are and marches
    * on x only where a contact reads a node that has none yet
    */
-  void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s,
-                 bool refresh);
+  void beginStep(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
 
   bool active() const override;
 
@@ -45,8 +43,7 @@ class ToolContact : public ContactTerm
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
   void forgetField() override;
-  void lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT, double step_s,
-                   bool refresh);
+  void lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
   void lagPlaces(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
   void select();
 

@@ -72,7 +72,7 @@ TEST(ToolContactDetection, MarchesOncePerStepAndKeepsTheFieldWhenAsked)
   x[0].x() -= 1e-4;
   scene.contact->value(x);
   EXPECT_EQ(scene.marches, 1);
-  scene.contact->beginStep(scene.mesh.nodes, at(kTop), at(kTop), 0.01, false);
+  scene.contact->beginStep(scene.mesh.nodes, at(kTop), at(kTop), false);
   EXPECT_EQ(scene.contact->value(scene.mesh.nodes), first);
   EXPECT_EQ(scene.marches, 1);
 }
@@ -203,7 +203,7 @@ TEST(ToolContactDetection, WorksInRowsOfALargerScene)
                       contactModels(1e6)[3]);
   Points x(2, Vec3::Zero());
   x.insert(x.end(), scene.mesh.nodes.begin(), scene.mesh.nodes.end());
-  contact.beginStep(x, at(kTop), at(kTop), 0.01, true);
+  contact.beginStep(x, at(kTop), at(kTop), true);
   EXPECT_EQ(contact.value(x), wanted);
   for (const ContactSample& s : contact.samples(x))
   {

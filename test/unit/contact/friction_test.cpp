@@ -37,8 +37,8 @@ struct Rub
         start(shaken(with.mesh.nodes, 0.0004, 51)),
         X_after(at(kTool + moved))
   {
-    with.contact->beginStep(start, X_before, X_after, kStep, true);
-    without.contact->beginStep(start, X_before, X_after, kStep, true);
+    with.contact->beginStep(start, X_before, X_after, true);
+    without.contact->beginStep(start, X_before, X_after, true);
   }
 
   double value(const Points& x) { return with.contact->value(x) - without.contact->value(x); }
@@ -154,7 +154,7 @@ TEST(Friction, OfATissueThatIsCarriedAlongIsZero)
   }
   // A turning tool takes its points of contact along as well.
   const Pose turn = at(kTool) * Eigen::AngleAxisd(0.01, Vec3::UnitZ());
-  rub.with.contact->beginStep(rub.start, at(kTool), turn, kStep, true);
+  rub.with.contact->beginStep(rub.start, at(kTool), turn, true);
   double torque = 0.0;
   for (const FrictionForce& f : rub.with.contact->frictionForces(rub.start))
   {
