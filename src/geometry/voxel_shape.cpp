@@ -64,6 +64,7 @@ struct VoxelShape::Nearest
 VoxelShape::VoxelShape(VoxelSet cells) : cells_(std::move(cells)) {}
 
 VoxelShape::~VoxelShape() = default;
+VoxelShape::VoxelShape(VoxelShape&&) noexcept = default;
 
 bool VoxelShape::cover(const Box3& reach)
 {

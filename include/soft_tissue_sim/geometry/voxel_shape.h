@@ -23,6 +23,7 @@ class VoxelShape : public RigidShape
  public:
   explicit VoxelShape(VoxelSet cells);
   ~VoxelShape() override;
+  VoxelShape(VoxelShape&&) noexcept;
 
   const VoxelSet& cells() const { return cells_; }
 
