@@ -17,7 +17,7 @@
 namespace soft_tissue
 {
 /** The scene itself. Building is in scene_build.cpp, its contacts in
- * scene_pairs.cpp, those with obstacles in scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
+ * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
  * scene_step.cpp, reading out in scene.cpp. */
 class Scene::Impl
 {

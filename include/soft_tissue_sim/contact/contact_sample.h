@@ -12,8 +12,8 @@ namespace soft_tissue
  * Both responses, point- and segment-in-object, both directions of a pair, and every kind of depth
  * end as samples: energy 1/2 kappa area d^2, and d's derivative by node j is coefficient[j] *
  * gradient. The two directions are averaged by halving the area of each: areas of one direction add
- * up to half of the touching surface, and energies and forces are plain sums over all samples. Where
- * only one direction is taken, against an obstacle, its areas count whole.
+ * up to half of the touching surface, and energies and forces are plain sums over all samples.
+ * Where only one direction is taken, against an obstacle, its areas count whole.
  *
  * The force is kappa area depth. Where an edge is clipped at a surface, the quadrature points move
  * with that surface; the derivative of that is one more sample at the clip point, with a force

@@ -184,7 +184,7 @@ constexpr double kAutoStiffness = 20.0;
 struct ContactConfig
 {
   std::string tissue;
-  std::string other;  ///< a tool or obstacle, another tissue, or the same, which then touches itself
+  std::string other;  ///< tool, obstacle, another tissue, or the same, which then touches itself
   Response response = Response::segment;
   std::optional<double> stiffness_pa_per_m;  ///< empty: kAutoStiffness
   double friction = 0.0;                     ///< Coulomb coefficient

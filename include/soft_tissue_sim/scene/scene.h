@@ -45,8 +45,9 @@ struct StepReport
 };
 
 /**
- * One contact sample between a tool or an obstacle and a tissue, or between the first and the second tissue of a
- * pair, world frame. Forces of all samples add up to what acts on the tool, or on the first; where
+ * One contact sample between a tool, or an obstacle, and a tissue, or between the first and the
+ * second tissue of a pair, world frame. Forces of all samples add up to what acts on the tool, or
+ * on the first; where
  * an edge crosses the surface a sample of no depth and area carries a small part of it, and
  * friction has samples of its own without them.
  */
