@@ -30,7 +30,8 @@ std::vector<BadScene> badNames()
        "  - {between: [table, hook]}",
        "contacts[0].between = [table, hook], must have a tissue; tools and obstacles don't touch "
        "each other"},
-      {"outputs:", "obstacles: [{name: table}]\noutputs:", "obstacles[0].octomap: is missing"},
+      {"outputs:", "obstacles: [{name: table}]\noutputs:",
+       "obstacles[0].octomap: missing, must be a map"},
       {"outputs:", "obstacles: [{name: table, octomap: {file: mesh.msh, depth: 17}}]\noutputs:",
        "obstacles[0].octomap.depth = 17, must be in [1, 16]"},
       {"outputs:",
