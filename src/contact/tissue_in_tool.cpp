@@ -1,5 +1,7 @@
 #include "tissue_in_tool.h"
 
+#include <algorithm>
+
 #include "moving_ends.h"
 #include "quadrature.h"
 #include "soft_tissue_sim/collision/inside_intervals.h"
@@ -7,10 +9,11 @@
 namespace soft_tissue
 {
 TissueInTool::TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool,
-                           const ContactOptions& options)
+                           const ContactOptions& options, double share)
     : tissue_(tissue),
       tool_(tool),
       options_(options),
+      share_(share),
       cell_length_(0.5 * tool.innerRadius()),
       surface_(*tissue.surface, options.segments)
 {}
@@ -42,6 +45,17 @@ void TissueInTool::lagAreas(const Points& x, const BoxSelection& elements)
   }
 }
 
+void TissueInTool::dropFarther(const Points& x, double margin)
+{
+  const auto outside = [&](Index element) {
+    const Vec3& a = x[surface_.nodes(element)[0]];
+    const Vec3& b = x[surface_.nodes(element)[1]];
+    const double reach = 0.5 * (b - a).norm() + margin;
+    return tool_.distance(X_TW_ * Vec3(0.5 * (a + b))).distance > reach;
+  };
+  near_.erase(std::remove_if(near_.begin(), near_.end(), outside), near_.end());
+}
+
 void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& samples) const
 {
   for (const Index element : near_)
@@ -68,7 +82,7 @@ bool TissueInTool::measure(const Vec3& p, double area, ContactSample& sample) co
   sample.position = p;
   sample.depth = -at.distance;
   sample.gradient = -(X_WT_.linear() * at.normal);
-  sample.area = 0.5 * area;  // the two directions of the pair are averaged
+  sample.area = share_ * area;
   sample.stiffness_area = options_.stiffness_pa_per_m * sample.area;
   sample.force = sample.stiffness_area * sample.depth;
   sample.side = -1;

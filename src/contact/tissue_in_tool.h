@@ -14,7 +14,9 @@ namespace soft_tissue
 class TissueInTool
 {
  public:
-  TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool, const ContactOptions& options);
+  /** @param share  of the surface's area that counts: half where the other direction does too */
+  TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool, const ContactOptions& options,
+               double share = 0.5);
 
   void setStiffness(double pa_per_m) { options_.stiffness_pa_per_m = pa_per_m; }
 
@@ -26,6 +28,12 @@ class TissueInTool
 
   /** Takes areas and the number of quadrature cells for these elements from x (the body's, m). */
   void lagAreas(const Points& x, const BoxSelection& elements);
+
+  /** Of those elements, leaves out what stays outside while no node moves farther than this, m. */
+  void dropFarther(const Points& x, double margin);
+
+  /** Whether any element is left that may touch. */
+  bool any() const { return !near_.empty(); }
 
   /** Appends the samples of those elements at x, positions of the body alone, m. */
   void addSamples(const Points& x, std::vector<ContactSample>& samples) const;
@@ -43,6 +51,7 @@ class TissueInTool
   TissueBody tissue_;
   const RigidBodyShape& tool_;
   ContactOptions options_;
+  double share_;
   double cell_length_;
   Pose X_WT_ = Pose::Identity();
   Pose X_TW_ = Pose::Identity();

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "body_motion.h"
-#include "friction.h"
 #include "host_field.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/contact/depth_curvature.h"
 #include "tissue_in_tool.h"
+#include "tool_grip.h"
 #include "tool_in_tissue.h"
 
 namespace soft_tissue
@@ -28,23 +28,6 @@ Box3 boundsOf(const Points& x, const std::vector<Index>& nodes)
     box.extend(x[node]);
   }
   return box;
-}
-
-/** The tissue's point at a sample, that the tool takes along where it sticks. */
-Grip gripOf(const ContactSample& sample, const Points& x, const Pose& motion)
-{
-  Grip grip;
-  grip.normal = sample.normal();
-  grip.press = sample.force;
-  grip.count = sample.count;
-  grip.node = sample.node;
-  for (int j = 0; j < sample.count; ++j)
-  {
-    grip.weight[j] = -sample.side * sample.coefficient[j];
-  }
-  grip.stuck_at = motion * grip.at(x);
-  grip.origin = Vec3::Zero();
-  return grip;
 }
 }  // namespace
 

@@ -185,7 +185,8 @@ PseudoNormals pseudoNormals(const SurfaceMesh& mesh, const std::vector<Index>& t
   }
   for (std::size_t h = 0; h < twins.size(); ++h)
   {
-    normals.edges.push_back((normals.faces[h / 3] + normals.faces[twins[h] / 3]).normalized());
+    const std::size_t other = twins[h] < 0 ? h / 3 : twins[h] / 3;
+    normals.edges.push_back((normals.faces[h / 3] + normals.faces[other]).normalized());
   }
   for (Vec3& normal : normals.nodes)
   {

@@ -25,6 +25,7 @@ struct PseudoNormals
   Points nodes;  ///< one a node
 };
 
+/** @param twins  of closedSurfaceTwins(); -1 where there is no other side */
 PseudoNormals pseudoNormals(const SurfaceMesh& mesh, const std::vector<Index>& twins);
 
 /** Whether the closed surface is one piece without a reflex edge. */

@@ -2,118 +2,45 @@
 #include <cmath>
 
 #include "closed_surface.h"
-#include "feature_curvature.h"
+#include "signed_surface.h"
 #include "soft_tissue_sim/geometry/triangle_tree.h"
-#include "soft_tissue_sim/geometry/closest_point.h"
 #include "surface_grid.h"
 
 namespace soft_tissue
 {
 namespace
 {
-/**
- * Solid inside a closed triangle mesh.
- *
- * Source: [Baerentzen2005] sign of the distance by angle-weighted pseudonormals.
- */
+/** Solid inside a closed triangle mesh. */
 class MeshShape : public RigidShape
 {
  public:
   MeshShape(const Points& nodes, const std::vector<Triangle>& triangles, const std::string& what)
   {
-    mesh_.nodes = nodes;
-    mesh_.triangles = triangles;
-    const std::vector<Index> twins = closedSurfaceTwins(mesh_, what);
-    normals_ = pseudoNormals(mesh_, twins);
-    convex_ = isConvexSurface(mesh_, twins, normals_.faces);
-    tree_.build(mesh_.triangles, mesh_.nodes);
-    on_surface_ = 1e-12 * (bounds().max - bounds().min).norm();
+    SurfaceMesh mesh = {nodes, triangles};
+    const std::vector<Index> twins = closedSurfaceTwins(mesh, what);
+    PseudoNormals normals = pseudoNormals(mesh, twins);
+    convex_ = isConvexSurface(mesh, twins, normals.faces);
+    surface_.build(std::move(mesh), std::move(normals), 1e-12);
+    tree_.build(surface_.mesh().triangles, surface_.mesh().nodes);
     inner_radius_ = climbed(largestTouchingBall());
   }
 
-  SignedDistance distance(const Vec3& p) const override
-  {
-    const Nearest nearest = closest(p);
-    const Vec3 outward = pseudoNormal(nearest);
-    const Vec3 offset = p - nearest.at.point;
-    const double length = offset.norm();
-    if (!(length > on_surface_))
-    {
-      return {offset.dot(outward) < 0.0 ? -length : length, outward};
-    }
-    const double sign = offset.dot(outward) < 0.0 ? -1.0 : 1.0;
-    return {sign * length, sign / length * offset};
-  }
-
-  Mat3 curvature(const Vec3& p) const override
-  {
-    const Nearest nearest = closest(p);
-    const Vec3 offset = p - nearest.at.point;
-    if (!(offset.norm() > on_surface_))
-    {
-      return Mat3::Zero();
-    }
-    const Triangle& t = mesh_.triangles[nearest.triangle];
-    Mat3 straight = Mat3::Zero();
-    switch ((nearest.at.weights.array() > 0.0).count())
-    {
-      case 3:
-        return Mat3::Zero();
-      case 2: {
-        int apex = 0;
-        nearest.at.weights.minCoeff(&apex);
-        const Vec3 along =
-            (mesh_.nodes[t[(apex + 1) % 3]] - mesh_.nodes[t[(apex + 2) % 3]]).normalized();
-        straight = along * along.transpose();
-        break;
-      }
-      default:
-        break;
-    }
-    const double sign = offset.dot(pseudoNormal(nearest)) < 0.0 ? -1.0 : 1.0;
-    return sign * aroundFeature(offset, straight);
-  }
-
-  Box3 bounds() const override { return tree_.bounds(); }
+  SignedDistance distance(const Vec3& p) const override { return surface_.distance(p, closest(p)); }
+  Mat3 curvature(const Vec3& p) const override { return surface_.curvature(p, closest(p)); }
+  Box3 bounds() const override { return surface_.bounds(); }
   bool convex() const override { return convex_; }
   double innerRadius() const override { return inner_radius_; }
-  SurfaceMesh surface(double max_edge) const override { return splitLongEdges(mesh_, max_edge); }
-
- private:
-  struct Nearest
+  SurfaceMesh surface(double max_edge) const override
   {
-    Index triangle;
-    TrianglePoint at;
-  };
-
-  Nearest closest(const Vec3& p) const
-  {
-    const TriangleTree::Nearest nearest = tree_.nearest(p, mesh_.nodes);
-    if (nearest.triangle >= 0)
-    {
-      return {nearest.triangle, nearest.point};
-    }
-    const Triangle& t = mesh_.triangles[0];  // a point that is not finite is near to nothing
-    return {0, closestOnTriangle(p, mesh_.nodes[t[0]], mesh_.nodes[t[1]], mesh_.nodes[t[2]])};
+    return splitLongEdges(surface_.mesh(), max_edge);
   }
 
-  const Vec3& pseudoNormal(const Nearest& nearest) const
+ private:
+  SignedSurface::Nearest closest(const Vec3& p) const
   {
-    const Vec3& weights = nearest.at.weights;
-    for (int k = 0; k < 3; ++k)
-    {
-      const int second = (k + 1) % 3;
-      const int third = (k + 2) % 3;
-      if (weights[second] == 0.0 && weights[third] == 0.0)
-      {
-        return normals_.nodes[mesh_.triangles[nearest.triangle][k]];
-      }
-      if (weights[third] == 0.0 && weights[k] > 0.0 && weights[second] > 0.0)
-      {
-        return normals_.edges[3 * nearest.triangle + k];
-      }
-    }
-    return normals_.faces[nearest.triangle];
+    // A point that is not finite is near to nothing.
+    const Index nearest = tree_.nearest(p, surface_.mesh().nodes).triangle;
+    return surface_.nearestOn(std::max<Index>(nearest, 0), p);
   }
 
   struct Ball
@@ -128,16 +55,17 @@ class MeshShape : public RigidShape
     constexpr int kMostSteps = 60;
     const double widest = (bounds().max - bounds().min).minCoeff() * 0.5;
     Ball largest{Vec3::Zero(), 0.0};
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+    const SurfaceMesh& mesh = surface_.mesh();
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     {
-      const Triangle& t = mesh_.triangles[i];
-      const Vec3 start = (mesh_.nodes[t[0]] + mesh_.nodes[t[1]] + mesh_.nodes[t[2]]) / 3.0;
-      const Vec3& outward = normals_.faces[i];
+      const Triangle& t = mesh.triangles[i];
+      const Vec3 start = (mesh.nodes[t[0]] + mesh.nodes[t[1]] + mesh.nodes[t[2]]) / 3.0;
+      const Vec3& outward = surface_.normals().faces[i];
       double radius = widest;
       for (int step = 0; step < kMostSteps && radius > largest.radius; ++step)
       {
         const Vec3 centre = start - radius * outward;
-        const Nearest nearest = closest(centre);
+        const SignedSurface::Nearest nearest = closest(centre);
         if (std::sqrt(nearest.at.squared_distance) >= radius * (1.0 - 1e-9))
         {
           largest = {centre, radius};
@@ -174,11 +102,9 @@ class MeshShape : public RigidShape
     return ball.radius;
   }
 
-  SurfaceMesh mesh_;
-  PseudoNormals normals_;
-  TriangleTree tree_;
+  SignedSurface surface_;
+  TriangleTree tree_;  ///< over its mesh
   bool convex_ = false;
-  double on_surface_ = 0.0;
   double inner_radius_ = 0.0;
 };
 }  // namespace

@@ -17,12 +17,12 @@ bool hasName(const Bodies& bodies, const std::string& name)
  * is its bare name. */
 const char* const kMarkersOfPairs = "tissue_pairs";
 
-/** Tissues and tools share one name space, for their names become namespaces of topics and
- * markers. */
+/** Tissues, tools and obstacles share one name space, for their names become namespaces of topics
+ * and markers. */
 void checkNames(const Item& scene)
 {
   std::vector<Item> names;
-  for (const char* list : {"tissues", "tools"})
+  for (const char* list : {"tissues", "tools", "obstacles"})
   {
     const std::size_t size = scene.has(list) ? scene.at(list).size() : 0;
     for (std::size_t i = 0; i < size; ++i)
@@ -45,23 +45,28 @@ void checkNames(const Item& scene)
   }
 }
 
-/** Puts a pair of a tissue and a tool in this order. */
+bool isRigid(const SceneConfig& scene, const std::string& name)
+{
+  return hasName(scene.tools, name) || hasName(scene.obstacles, name);
+}
+
+/** Puts a pair of a tissue and a tool or obstacle in this order. */
 void orderPair(const Item& between, const SceneConfig& scene, ContactConfig& contact)
 {
   for (const std::string& name : {contact.tissue, contact.other})
   {
-    if (!hasName(scene.tissues, name) && !hasName(scene.tools, name))
+    if (!hasName(scene.tissues, name) && !isRigid(scene, name))
     {
-      between.rejectValue("there is no tissue or tool '" + name + "'");
+      between.rejectValue("there is no tissue, tool or obstacle '" + name + "'");
     }
   }
-  if (hasName(scene.tools, contact.tissue))
+  if (isRigid(scene, contact.tissue))
   {
     std::swap(contact.tissue, contact.other);
   }
-  if (hasName(scene.tools, contact.tissue))
+  if (isRigid(scene, contact.tissue))
   {
-    between.rejectValue("must have a tissue; tools don't touch each other");
+    between.rejectValue("must have a tissue; tools and obstacles don't touch each other");
   }
 }
 

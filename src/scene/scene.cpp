@@ -33,6 +33,10 @@ void Scene::Impl::resetWorld()
     tool.state = ToolState();
     tool.state.X_WT = tool.X_WT;
   }
+  for (Obstacle& obstacle : obstacles_)
+  {
+    obstacle.state.contacts.clear();
+  }
   const std::uint64_t number = report_.step;
   const double time_s = report_.time_s;
   report_ = StepReport();
@@ -83,6 +87,11 @@ void Scene::Impl::fillSnapshot(Snapshot& snapshot)
   {
     snapshot.tools[k] = tools_[k].state;
   }
+  snapshot.obstacles.resize(obstacles_.size());
+  for (std::size_t k = 0; k < obstacles_.size(); ++k)
+  {
+    snapshot.obstacles[k] = obstacles_[k].state;
+  }
   snapshot.tissue_pairs = pairs_;
 }
 
@@ -104,6 +113,11 @@ const std::vector<TissueInfo>& Scene::tissues() const
 const std::vector<ToolInfo>& Scene::tools() const
 {
   return impl_->tool_info_;
+}
+
+const std::vector<ObstacleInfo>& Scene::obstacles() const
+{
+  return impl_->obstacle_info_;
 }
 
 double Scene::time() const

@@ -45,12 +45,17 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   {
     addTool(k);
   }
+  for (std::size_t k = 0; k < config_.obstacles.size(); ++k)
+  {
+    addObstacle(k);
+  }
   for (std::size_t k = 0; k < config_.contacts.size(); ++k)
   {
     addContact(k);
   }
   saved_.resize(kMaxHalvings + 1);
   refuseDeepStart();
+  showObstacles();
 }
 
 void Scene::Impl::addTissue(std::size_t index)

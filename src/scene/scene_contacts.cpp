@@ -71,8 +71,9 @@ int Scene::Impl::partsOfStep() const
   double parts = 1.0;
   for (const Contact& contact : contacts_)
   {
-    const double moved =
-        contact.with_tool != nullptr ? motionOfTool(contact) : motionOfTissues(contact);
+    const double moved = contact.with_tool != nullptr       ? motionOfTool(contact)
+                         : contact.with_obstacle != nullptr ? motionInObstacle(contact)
+                                                            : motionOfTissues(contact);
     parts = std::max(parts, moved / (kMostMotion * contact.size_m));
   }
   return static_cast<int>(std::ceil(std::min(parts, kMostParts)));
@@ -133,6 +134,10 @@ void Scene::Impl::beginContacts(double from, double to)
       contact.with_tool->beginStep(x_, interpolate(tool.X_WT, tool.X_WT_goal, from),
                                    interpolate(tool.X_WT, tool.X_WT_goal, to), contact.refresh);
     }
+    else if (contact.with_obstacle != nullptr)
+    {
+      contact.with_obstacle->beginStep(x_);
+    }
     else
     {
       contact.with_tissue->beginStep(x_, extrapolated_, contact.refresh);
@@ -169,12 +174,28 @@ bool Scene::Impl::stiffenWhereTooDeep()
   return any;
 }
 
+/** Where its contact points are read out. */
+std::vector<ContactPoint>& Scene::Impl::pointsOf(const Contact& contact)
+{
+  if (contact.with_tissue != nullptr)
+  {
+    return pairs_[contact.pair].contacts;
+  }
+  return contact.with_tool != nullptr ? tools_[contact.other].state.contacts
+                                      : obstacles_[contact.other].state.contacts;
+}
+
 void Scene::Impl::collectContacts()
 {
+  showObstacles();
   for (Tool& tool : tools_)
   {
     tool.state.wrench_W = Wrench();
     tool.state.contacts.clear();
+  }
+  for (Obstacle& obstacle : obstacles_)
+  {
+    obstacle.state.contacts.clear();
   }
   for (TissuePairState& pair : pairs_)
   {
@@ -186,13 +207,12 @@ void Scene::Impl::collectContacts()
     {
       continue;
     }
-    const bool tool = contact.with_tool != nullptr;
-    std::vector<ContactPoint>& points =
-        tool ? tools_[contact.other].state.contacts : pairs_[contact.pair].contacts;
+    const bool rigid = contact.with_tissue == nullptr;
+    std::vector<ContactPoint>& points = pointsOf(contact);
     for (const ContactSample& sample : contact.term->samples(x_))
     {
-      const bool in_first = !tool && sample.side < 0;
-      points.push_back(pointOf(sample, tool || in_first ? contact.tissue : contact.other));
+      const bool in_first = !rigid && sample.side < 0;
+      points.push_back(pointOf(sample, rigid || in_first ? contact.tissue : contact.other));
       report_.max_penetration_m = std::max(report_.max_penetration_m, sample.depth);
       ++report_.contacts;
     }

@@ -6,6 +6,7 @@
 
 #include "soft_tissue_sim/base/pose_series.h"
 #include "soft_tissue_sim/base/timer.h"
+#include "soft_tissue_sim/contact/obstacle_contact.h"
 #include "soft_tissue_sim/contact/tissue_contact.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
@@ -16,7 +17,7 @@
 namespace soft_tissue
 {
 /** The scene itself. Building is in scene_build.cpp, its contacts in
- * scene_pairs.cpp, what they do in scene_contacts.cpp, moving in
+ * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
  * scene_step.cpp, reading out in scene.cpp. */
 class Scene::Impl
 {
@@ -35,6 +36,7 @@ class Scene::Impl
   SceneConfig config_;
   std::vector<TissueInfo> tissue_info_;
   std::vector<ToolInfo> tool_info_;
+  std::vector<ObstacleInfo> obstacle_info_;
   StepReport report_;
 
   struct Tool
@@ -64,15 +66,23 @@ class Scene::Impl
     PoseSeries track;
     Pose X_FW = Pose::Identity();  ///< the world in the first key frame's frame
   };
+  struct Obstacle
+  {
+    std::shared_ptr<VoxelShape> shape;
+    Pose X_WO = Pose::Identity();
+    Box3 shown;  ///< what of it ObstacleInfo has, its own frame
+    ObstacleState state;
+  };
   struct Contact
   {
     std::size_t tissue = 0;
-    std::size_t other = 0;  ///< index of the tool, or of the other tissue
+    std::size_t other = 0;  ///< index of the tool, the obstacle, or the other tissue
     std::unique_ptr<ContactTerm> term;
     ToolContact* with_tool = nullptr;  ///< the term, as what it is
     TissueContact* with_tissue = nullptr;
+    ObstacleContact* with_obstacle = nullptr;
     std::size_t pair = 0;  ///< of two tissues: index of their TissuePairState
-    double size_m = 0.0;   ///< radius of a ball that fits in the tool, or in both tissues
+    double size_m = 0.0;   ///< radius of a ball that fits in the tool or a cell, or in both tissues
     bool refresh = true;
     std::optional<double> max_penetration_m;
   };
@@ -83,16 +93,22 @@ class Scene::Impl
 
   void addTissue(std::size_t index);
   void addTool(std::size_t index);
+  void addObstacle(std::size_t index);
   void addContact(std::size_t index);
   void makeSolver();
   void addToolContact(const ContactConfig& config, ContactOptions options, Contact& contact);
   void addTissueContact(const ContactConfig& config, ContactOptions options, Contact& contact);
+  void addObstacleContact(const ContactConfig& config, ContactOptions options, Contact& contact);
+  void showObstacles();
+  void refuseDeepStart(const Contact& contact);
   TissueBody bodyOf(std::size_t tissue) const;
   std::unique_ptr<DistanceField> fieldOf(std::size_t tissue) const;
   void aimTools();
   int partsOfStep() const;
   double motionOfTool(const Contact& contact) const;
   double motionOfTissues(const Contact& contact) const;
+  double motionInObstacle(const Contact& contact) const;
+  std::vector<ContactPoint>& pointsOf(const Contact& contact);
   void beginContacts(double from, double to);
   bool advance(double from, double to, int depth);
   bool minimise(double from, double to);
@@ -114,6 +130,7 @@ class Scene::Impl
   std::vector<MovedNodes, Eigen::aligned_allocator<MovedNodes>> moved_;
   std::vector<Contact> contacts_;
   std::vector<TissuePairState> pairs_;
+  std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
   Points x_, x_rest_, v_;
   Points acceleration_;  ///< of the last step, to start the next one from; moves nothing by itself
   std::vector<double> masses_;

@@ -83,7 +83,7 @@ std::vector<std::vector<NodeRange>> Scene::Impl::freeBodies()
   }
   for (const Contact& contact : contacts_)
   {
-    if (contact.term->active() && contact.with_tool != nullptr)
+    if (contact.term->active() && contact.with_tissue == nullptr)
     {
       held[contact.tissue] = 1;
     }

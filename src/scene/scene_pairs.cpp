@@ -53,6 +53,10 @@ void Scene::Impl::addContact(std::size_t index)
   {
     addToolContact(config, options, contact);
   }
+  else if (find(config_.obstacles, config.other) < config_.obstacles.size())
+  {
+    addObstacleContact(config, options, contact);
+  }
   else
   {
     addTissueContact(config, options, contact);
@@ -120,6 +124,10 @@ void Scene::Impl::refuseDeepStart()
 {
   for (const Contact& contact : contacts_)
   {
+    if (contact.with_obstacle != nullptr)
+    {
+      refuseDeepStart(contact);
+    }
     if (contact.with_tool == nullptr)
     {
       continue;

@@ -67,7 +67,8 @@ const Section<ContactConfig>& contactSection()
                     maybe(number(1.0, 1e15, Ends::closed), "auto", true),
                     "Contact pressure per depth; auto: " + shortest(kAutoStiffness) +
                         " E / R, E being the tissue's Young's modulus and R the radius of the "
-                        "largest ball inside the tool; of two tissues, E of the softer one and the "
+                        "largest ball inside the tool, half a cell of an obstacle; of two tissues, "
+                        "E of the softer one and the "
                         "smaller R.")
           .optional(
               "friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
@@ -92,12 +93,13 @@ const Section<SceneConfig>& sceneSection()
           .required("tissues", &SceneConfig::tissues, listOf(mapOf(tissueSection()), 1),
                     "Soft bodies.")
           .optional("tools", &SceneConfig::tools, listOf(mapOf(toolSection())), "Rigid tools.")
+          .optional("obstacles", &SceneConfig::obstacles, listOf(mapOf(obstacleSection())),
+                    "What stands still in the world.")
           .optional("contacts", &SceneConfig::contacts, listOf(mapOf(contactSection())),
                     "Pairs that may touch.")
           .optional("outputs", &SceneConfig::outputs, mapOf(outputsSection()),
                     "What is computed only to be looked at.")
           .notAvailable("membranes", "Thin soft bodies.")
-          .notAvailable("obstacles", "OctoMap obstacles.")
           .finally(checkScene);
   return section;
 }

@@ -37,6 +37,7 @@ const Section<SceneConfig>& sceneSection();
 const Section<TissueConfig>& tissueSection();
 const Section<ToolConfig>& toolSection();
 const Section<ToolShapeConfig>& toolShapeSection();
+const Section<ObstacleConfig>& obstacleSection();
 const Section<PoseSourceConfig>& poseSourceSection();
 const Section<PoseKeyframe>& keyframeSection();
 const Section<ContactConfig>& contactSection();

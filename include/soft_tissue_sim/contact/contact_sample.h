@@ -13,6 +13,7 @@ namespace soft_tissue
  * end as samples: energy 1/2 kappa area d^2, and d's derivative by node j is coefficient[j] *
  * gradient. The two directions are averaged by halving the area of each: areas of one direction add
  * up to half of the touching surface, and energies and forces are plain sums over all samples.
+ * Where only one direction is taken, against an obstacle, its areas count whole.
  *
  * The force is kappa area depth. Where an edge is clipped at a surface, the quadrature points move
  * with that surface; the derivative of that is one more sample at the clip point, with a force
@@ -26,7 +27,7 @@ struct ContactSample
   Vec3 gradient = Vec3::Zero();         ///< of d by the intruding point; unit for a true distance
   double depth = 0.0;                   ///< m, >= 0
   double stiffness_area = 0.0;          ///< kappa times area, N/m
-  double area = 0.0;                    ///< m^2, half of the surface it stands for
+  double area = 0.0;                    ///< m^2, its share of the surface
   double force = 0.0;                   ///< N, against the gradient on the intruder
   int count = 0;                        ///< nodes that d depends on
   std::array<Index, kMaxNodes> node{};  ///< rows of x

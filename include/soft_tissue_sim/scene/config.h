@@ -163,6 +163,21 @@ struct ToolConfig
   PoseSourceConfig pose_source;
 };
 
+/** Cells of an OctoMap that stand still in the world. */
+struct OctomapConfig
+{
+  std::string file;               ///< absolute path
+  int depth = 16;                 ///< of the octree: 16 are the map's finest cells
+  bool unknown_occupied = false;  ///< what the map says nothing of, in it and around it
+};
+
+struct ObstacleConfig
+{
+  std::string name;
+  PoseConfig pose;  ///< of the map's frame in the world
+  OctomapConfig octomap;
+};
+
 enum class Response
 {
   point,
@@ -170,13 +185,14 @@ enum class Response
 };
 
 /** Contact stiffness that a scene leaves to us, in the tissue's Young's modulus over the tool's
- * inner radius; of two tissues the softer one's modulus and the smaller inner radius. */
+ * inner radius, half a cell of an obstacle; of two tissues the softer one's modulus and the smaller
+ * inner radius. */
 constexpr double kAutoStiffness = 20.0;
 
 struct ContactConfig
 {
   std::string tissue;
-  std::string other;  ///< a tool, another tissue, or the same tissue, which then touches itself
+  std::string other;  ///< tool, obstacle, another tissue, or the same, which then touches itself
   Response response = Response::segment;
   std::optional<double> stiffness_pa_per_m;  ///< empty: kAutoStiffness
   double friction = 0.0;                     ///< Coulomb coefficient
@@ -215,6 +231,7 @@ struct SceneConfig
   SolverConfig solver;
   std::vector<TissueConfig> tissues;
   std::vector<ToolConfig> tools;
+  std::vector<ObstacleConfig> obstacles;
   std::vector<ContactConfig> contacts;
   OutputsConfig outputs;
 };

@@ -45,8 +45,9 @@ struct StepReport
 };
 
 /**
- * One contact sample between a tool and a tissue, or between the first and the second tissue of a
- * pair, world frame. Forces of all samples add up to what acts on the tool, or on the first; where
+ * One contact sample between a tool, or an obstacle, and a tissue, or between the first and the
+ * second tissue of a pair, world frame. Forces of all samples add up to what acts on the tool, or
+ * on the first; where
  * an edge crosses the surface a sample of no depth and area carries a small part of it, and
  * friction has samples of its own without them.
  */
@@ -106,6 +107,20 @@ struct ToolInfo
   TriMesh surface;
 };
 
+/** An obstacle's surface for display, world frame: as much of it as tissue has come near to. */
+struct ObstacleInfo
+{
+  std::string name;
+  TriMesh surface;
+  double cell_size_m = 0.0;
+};
+
+/** Contact of all tissues with an obstacle. */
+struct ObstacleState
+{
+  std::vector<ContactPoint> contacts;  ///< forces are those on the obstacle
+};
+
 /** A finished step, free of the scene that made it: what publishers and recorders read. */
 struct Snapshot
 {
@@ -113,6 +128,7 @@ struct Snapshot
   std::uint64_t state_hash = 0;
   std::vector<TissueState> tissues;
   std::vector<ToolState> tools;
+  std::vector<ObstacleState> obstacles;
   std::vector<TissuePairState> tissue_pairs;  ///< as the scene file names them
 };
 
@@ -123,7 +139,7 @@ class Scene
   /**
    * Builds the bodies a configuration names.
    * @throws Error for a mesh that can't be read, a fixed box that fixes nothing, a tool deep inside
-   * tissue, ...
+   * tissue, tissue deep inside an obstacle, ...
    */
   explicit Scene(const SceneConfig& config);
   ~Scene();
@@ -133,6 +149,8 @@ class Scene
   const SceneConfig& config() const;
   const std::vector<TissueInfo>& tissues() const;
   const std::vector<ToolInfo>& tools() const;
+  /** Their surfaces grow in steps that take tissue to new places. */
+  const std::vector<ObstacleInfo>& obstacles() const;
 
   /** Simulated time, s. */
   double time() const;

@@ -23,6 +23,20 @@ std::vector<BadScene> badNames()
       {"name: kidney", "name: liver",
        "tissues[1].name = liver, is tissues[0].name too, must be new"},
       {"name: hook", "name: probe", "tools[1].name = probe, is tools[0].name too, must be new"},
+      {"outputs:", "obstacles: [{name: probe, octomap: {file: mesh.msh}}]\noutputs:",
+       "obstacles[0].name = probe, is tools[0].name too, must be new"},
+      {"contacts:",
+       "obstacles: [{name: table, octomap: {file: mesh.msh}}]\ncontacts:\n"
+       "  - {between: [table, hook]}",
+       "contacts[0].between = [table, hook], must have a tissue; tools and obstacles don't touch "
+       "each other"},
+      {"outputs:", "obstacles: [{name: table}]\noutputs:",
+       "obstacles[0].octomap: missing, must be a map"},
+      {"outputs:", "obstacles: [{name: table, octomap: {file: mesh.msh, depth: 17}}]\noutputs:",
+       "obstacles[0].octomap.depth = 17, must be in [1, 16]"},
+      {"outputs:",
+       "obstacles: [{name: table, octomap: {file: mesh.msh, unknown: maybe}}]\noutputs:",
+       "obstacles[0].octomap.unknown = maybe, must be one of free, occupied"},
       {"name: hook", "name: kidney", "tools[1].name = kidney, is tissues[1].name too, must be new"},
       {"name: kidney", "name: tissue_pairs",
        "tissues[1].name = tissue_pairs, is what markers of contacts are called, must be another "
@@ -31,11 +45,12 @@ std::vector<BadScene> badNames()
        "tools[1].name = tissue_pairs, is what markers of contacts are called, must be another "
        "name"},
       {"[liver, probe]", "[lever, probe]",
-       "contacts[0].between = [lever, probe], there is no tissue or tool 'lever'"},
+       "contacts[0].between = [lever, probe], there is no tissue, tool or obstacle 'lever'"},
       {"[liver, probe]", "[liver, proof]",
-       "contacts[0].between = [liver, proof], there is no tissue or tool 'proof'"},
+       "contacts[0].between = [liver, proof], there is no tissue, tool or obstacle 'proof'"},
       {"[liver, probe]", "[hook, probe]",
-       "contacts[0].between = [hook, probe], must have a tissue; tools don't touch each other"},
+       "contacts[0].between = [hook, probe], must have a tissue; tools and obstacles don't touch "
+       "each other"},
       {"[liver, probe]", "liver",
        "contacts[0].between = liver, must be a list of 2 names: a tissue and a tool or "
        "tissue"},
@@ -109,6 +124,8 @@ std::vector<BadScene> badFiles()
       {"mesh: {file: mesh.msh", "mesh: {file: package://no_such_package/a.msh",
        "tissues[0].mesh.file = package://no_such_package/a.msh, ROS finds no package "
        "'no_such_package'"},
+      {"outputs:", "obstacles: [{name: table, octomap: {file: gone.bt}}]\noutputs:",
+       "obstacles[0].octomap.file = gone.bt, no such file: DIR/gone.bt"},
       {kCapsule, "{mesh: {file: gone.stl, length_unit: m}}",
        "tools[0].shape.mesh.file = gone.stl, no such file: DIR/gone.stl"},
       {kCapsule, "{urdf: {file: gone.urdf, link: tip}}",
@@ -124,8 +141,8 @@ std::vector<BadScene> notAvailable()
 {
   return {
       {"outputs:", "membranes: [{name: skin}]\noutputs:", "membranes: " NOT_AVAILABLE},
-      {"outputs:", "obstacles: [{name: table}]\noutputs:", "obstacles: " NOT_AVAILABLE},
-      {"outputs:", "obstacles:\noutputs:", "obstacles: " NOT_AVAILABLE},
+      {"outputs:", "obstacles: [{name: table, octomap: {topic: octomap_in}}]\noutputs:",
+       "obstacles[0].octomap.topic: " NOT_AVAILABLE},
       {"    field: {method: cffm}", "    element: tet10", "tissues[0].element: " NOT_AVAILABLE},
       {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
       {"response: segment", "response: auto",

@@ -115,10 +115,10 @@ std::vector<BadScene> badKeys()
        "preset, young_modulus_pa, poisson_ratio, density_kg_per_m3"},
       {"time_step_s: 0.005", "time_step_ms: 5",
        "time_step_ms: unknown key, did you mean 'time_step_s'? Known: time_step_s, "
-       "gravity_m_per_s2, materials, solver, tissues, tools, contacts, outputs"},
+       "gravity_m_per_s2, materials, solver, tissues, tools, obstacles, contacts, outputs"},
       {"outputs:", "banana:",
        "banana: unknown key. Known: time_step_s, gravity_m_per_s2, materials, solver, tissues, "
-       "tools, contacts, outputs"},
+       "tools, obstacles, contacts, outputs"},
       {"outputs:", "time_step_s: 0.01\noutputs:", "time_step_s: stands twice, must stand once"},
       {"length_unit: m}", "length_unit: m, file: other.msh}",
        "tissues[0].mesh.file: stands twice, must stand once"},
@@ -138,7 +138,7 @@ std::vector<BadScene> badKeys()
        "any order"},
       {"tissues:", "tissues: liver\nx:",
        "x: unknown key. Known: time_step_s, gravity_m_per_s2, materials, solver, tissues, tools, "
-       "contacts, outputs"},
+       "obstacles, contacts, outputs"},
       {"solver: {tolerance: 1.0e-3, max_iterations: 20, linear: auto}", "solver: fast",
        "solver = fast, must be a map of keys: stepper, tolerance, max_iterations, linear, "
        "budget_ms"},

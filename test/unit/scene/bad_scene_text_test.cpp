@@ -57,7 +57,7 @@ TEST_F(BadSceneTextTest, NotAMap)
 {
   const std::string known =
       "must be a map of keys: time_step_s, gravity_m_per_s2, materials, solver, tissues, tools, "
-      "contacts, outputs";
+      "obstacles, contacts, outputs";
   EXPECT_EQ(complaint("- a\n- b\n"), "DIR/scene.yaml: " + known);
   EXPECT_EQ(complaint("just words"), "DIR/scene.yaml: " + known);
 }

@@ -1,0 +1,151 @@
+#include "soft_tissue_sim/contact/obstacle_contact.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "body_motion.h"
+#include "soft_tissue_sim/base/timer.h"
+#include "tissue_in_tool.h"
+#include "tool_grip.h"
+
+namespace soft_tissue
+{
+namespace
+{
+/** How far beyond the tissue the obstacle is covered, in cells: as deep as it may get. */
+constexpr double kCovered = 8.0;
+
+RigidBodyShape bodyOf(const std::shared_ptr<VoxelShape>& shape, const Pose& X_WO)
+{
+  RigidBodyShape body;
+  body.add(shape, X_WO);
+  return body;
+}
+}  // namespace
+
+struct ObstacleContact::Parts
+{
+  TissueBody tissue;
+  std::shared_ptr<VoxelShape> obstacle;
+  Pose X_OW;
+  RigidBodyShape body;  ///< the obstacle in the world
+  TissueInTool tissue_in_obstacle;
+
+  Points start;         ///< the tissue at the start of the step
+  double margin = 0.0;  ///< how far it may move before the selection is too small, m
+  BoxSelection selection;
+
+  Parts(const TissueBody& tissue_body, std::shared_ptr<VoxelShape> shape, const Pose& X_WO,
+        const ContactOptions& options)
+      : tissue(tissue_body),
+        obstacle(std::move(shape)),
+        X_OW(X_WO.inverse()),
+        body(bodyOf(obstacle, X_WO)),
+        tissue_in_obstacle(tissue, body, options, 1.0)
+  {}
+};
+
+ObstacleContact::ObstacleContact(const TissueBody& tissue, std::shared_ptr<VoxelShape> obstacle,
+                                 const Pose& X_WO, const ContactOptions& options)
+    : ContactTerm(options, {{tissue.first_node, tissue.node_count}}),
+      parts_(std::make_unique<Parts>(tissue, std::move(obstacle), X_WO, options))
+{}
+
+ObstacleContact::~ObstacleContact() = default;
+
+void ObstacleContact::beginStep(const Points& x)
+{
+  lagFriction(x);
+  lagPlaces(x);
+}
+
+void ObstacleContact::lagFriction(const Points& x)
+{
+  if (!friction().acts())
+  {
+    return;
+  }
+  if (!haveSamplesAt(x))
+  {
+    lagPlaces(x);
+  }
+  const std::vector<ContactSample>& touching = samples(x);
+  const ScopedTimer timer(times().respond);
+  friction().begin(x);
+  forEachPress(touching, [&](const ContactSample& sample, std::uint64_t place) {
+    Grip grip = gripOf(sample, x, Pose::Identity());
+    grip.place = place;
+    friction().add(grip);
+  });
+}
+
+void ObstacleContact::lagPlaces(const Points& x)
+{
+  Parts& p = *parts_;
+  const ScopedTimer timer(times().detect);
+  takeBodies(x);
+  const double last_motion = p.start.empty() ? 0.0 : largestMotion(p.start, body(0));
+  p.start = body(0);
+  forgetSamples();
+  p.margin = p.obstacle->innerRadius() + (std::isfinite(last_motion) ? last_motion : 0.0);
+  select();
+}
+
+void ObstacleContact::select()
+{
+  Parts& p = *parts_;
+  Box3 reach;
+  for (const Index node : p.tissue.surface->nodes)
+  {
+    reach.extend(p.start[node]);
+  }
+  reach.grow(p.margin);
+  Box3 reach_O = transformed(p.X_OW, reach);
+  p.selection.clear();
+  Box3 covered_O = reach_O;
+  covered_O.grow(kCovered * p.obstacle->cells().cellSize());
+  p.obstacle->cover(covered_O);
+  p.tissue_in_obstacle.place(Pose::Identity());
+  if (p.obstacle->touches(reach_O))
+  {
+    p.selection.select(p.start, *p.tissue.tets, *p.tissue.surface, reach);
+  }
+  p.tissue_in_obstacle.lagAreas(p.start, p.selection);
+  p.tissue_in_obstacle.dropFarther(p.start, p.margin);
+}
+
+void ObstacleContact::collect(std::vector<ContactSample>& samples)
+{
+  Parts& p = *parts_;
+  {
+    const ScopedTimer timer(times().detect);
+    // Areas are those of the start whatever is selected, so more elements only add what had been
+    // out of reach.
+    const double motion = largestMotion(p.start, body(0));
+    if (motion > p.margin)
+    {
+      p.margin = std::isfinite(motion) ? 2.0 * motion : std::numeric_limits<double>::max() / 4.0;
+      select();
+    }
+  }
+  const ScopedTimer timer(times().respond);
+  p.tissue_in_obstacle.addSamples(body(0), samples);
+}
+
+DepthCurvature ObstacleContact::curvature(const ContactSample& sample) const
+{
+  return parts_->tissue_in_obstacle.curvature(sample);
+}
+
+void ObstacleContact::setStiffness(double pa_per_m)
+{
+  parts_->tissue_in_obstacle.setStiffness(pa_per_m);
+}
+
+bool ObstacleContact::active() const
+{
+  return parts_->tissue_in_obstacle.any();
+}
+
+}  // namespace soft_tissue

@@ -1,0 +1,150 @@
+#include "soft_tissue_sim/geometry/voxel_set.h"
+
+#include <cmath>
+#include <string>
+
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue
+{
+namespace
+{
+constexpr int kLargest = 1 << 20;
+
+Cell brickOf(const Cell& cell)
+{
+  return {cell.x() >> 3, cell.y() >> 3, cell.z() >> 3};
+}
+
+std::uint64_t keyOf(const Cell& brick)
+{
+  const auto part = [&](int axis) { return static_cast<std::uint64_t>(brick[axis] + kLargest); };
+  return part(0) | part(1) << 21U | part(2) << 42U;
+}
+
+template <typename Visit>
+void forEachCell(const CellBox& box, const Visit& visit)
+{
+  Cell cell;
+  for (cell.z() = box.low.z(); cell.z() < box.high.z(); ++cell.z())
+  {
+    for (cell.y() = box.low.y(); cell.y() < box.high.y(); ++cell.y())
+    {
+      for (cell.x() = box.low.x(); cell.x() < box.high.x(); ++cell.x())
+      {
+        visit(cell);
+      }
+    }
+  }
+}
+
+/** Bricks that have cells of a box. */
+CellBox bricksOf(const CellBox& box)
+{
+  return {brickOf(box.low), brickOf(box.high - Cell::Ones()) + Cell::Ones()};
+}
+
+unsigned bitOf(const Cell& cell)
+{
+  return static_cast<unsigned>((cell.x() & 7) + 8 * (cell.y() & 7));
+}
+}  // namespace
+
+VoxelSet::VoxelSet(double cell_size, bool occupied)
+    : cell_size_(cell_size), others_occupied_(occupied)
+{
+  if (!(cell_size > 0.0) || !std::isfinite(cell_size))
+  {
+    throw Error("voxels: edge length = " + std::to_string(cell_size) +
+                ", must be positive and finite");
+  }
+}
+
+void VoxelSet::fill(const CellBox& box, bool occupied)
+{
+  if (box.empty())
+  {
+    return;
+  }
+  if ((box.low.array() < -kLargest).any() || (box.high.array() > kLargest).any())
+  {
+    throw Error("voxels: a cell's index is beyond " + std::to_string(kLargest));
+  }
+  bounds_.extend(box);
+  const bool bit = occupied != others_occupied_;
+  forEachCell(bricksOf(box), [&](const Cell& brick) {
+    const Cell first = brick * kSide;
+    const CellBox part = {first.cwiseMax(box.low),
+                          (first + Cell::Constant(kSide)).cwiseMin(box.high)};
+    Brick& bits = bricks_[keyOf(brick)];
+    forEachCell(part, [&](const Cell& cell) {
+      const std::uint64_t mask = std::uint64_t{1} << bitOf(cell);
+      std::uint64_t& layer = bits[cell.z() & 7];
+      layer = bit ? layer | mask : layer & ~mask;
+    });
+  });
+}
+
+const VoxelSet::Brick* VoxelSet::brickAt(const Cell& brick) const
+{
+  const auto found = bricks_.find(keyOf(brick));
+  return found == bricks_.end() ? nullptr : &found->second;
+}
+
+bool VoxelSet::occupied(const Cell& cell) const
+{
+  const bool far = (cell.array() < -kLargest).any() || (cell.array() >= kLargest).any();
+  const Brick* brick = far ? nullptr : brickAt(brickOf(cell));
+  return others_occupied_ !=
+         (brick != nullptr && ((*brick)[cell.z() & 7] >> bitOf(cell) & 1U) != 0);
+}
+
+void VoxelSet::read(const CellBox& box, std::vector<std::uint8_t>& occupied) const
+{
+  const Cell size = box.high - box.low;
+  occupied.assign(static_cast<std::size_t>(size.x()) * size.y() * size.z(), others_occupied_);
+  forEachCell(bricksOf(box), [&](const Cell& brick) {
+    const Brick* bits = brickAt(brick);
+    if (bits == nullptr)
+    {
+      return;
+    }
+    const Cell first = brick * kSide;
+    const CellBox part = {first.cwiseMax(box.low),
+                          (first + Cell::Constant(kSide)).cwiseMin(box.high)};
+    forEachCell(part, [&](const Cell& cell) {
+      const Cell at = cell - box.low;
+      const bool bit = ((*bits)[cell.z() & 7] >> bitOf(cell) & 1U) != 0;
+      occupied[(static_cast<std::size_t>(at.z()) * size.y() + at.y()) * size.x() + at.x()] =
+          bit != others_occupied_;
+    });
+  });
+}
+
+bool VoxelSet::mixed(const CellBox& box) const
+{
+  bool any = false;
+  forEachCell(bricksOf(box), [&](const Cell& brick) { any = any || brickAt(brick) != nullptr; });
+  return any;
+}
+
+Cell VoxelSet::cellOf(const Vec3& p) const
+{
+  // A point that is not finite, or out of the grid, is in a cell at its end.
+  const Vec3 index = (p / cell_size_).array().floor().matrix();
+  Cell cell;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cell[axis] = index[axis] > -kLargest
+                     ? (index[axis] < kLargest ? static_cast<int>(index[axis]) : kLargest)
+                     : -kLargest;
+  }
+  return cell;
+}
+
+std::size_t VoxelSet::bytes() const
+{
+  return bricks_.size() * (sizeof(Brick) + sizeof(std::uint64_t) + 2 * sizeof(void*));
+}
+
+}  // namespace soft_tissue

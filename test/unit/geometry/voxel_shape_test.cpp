@@ -1,0 +1,215 @@
+#include "soft_tissue_sim/geometry/voxel_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include "support/voxel_samples.h"
+
+namespace soft_tissue
+{
+namespace
+{
+using namespace test;
+
+// From how cells may be smoothed: corners move by at most 0.35 cells along each axis.
+const double kMostMoved = 0.35 * std::sqrt(3.0);
+const CellBox kSix = {Cell::Constant(-3), Cell::Constant(3)};
+const CellBox kAround = {Cell::Constant(-4), Cell::Constant(4)};
+
+bool sameBits(const SignedDistance& a, const SignedDistance& b)
+{
+  return std::memcmp(&a.distance, &b.distance, sizeof(double)) == 0 &&
+         std::memcmp(a.normal.data(), b.normal.data(), 3 * sizeof(double)) == 0;
+}
+
+TEST(VoxelShape, LeavesFlatFloorsWhereTheyAre)
+{
+  const VoxelSet cells = voxelsOf(0.01, {Cell(-20, -20, -6), Cell(20, 20, 4)},
+                                  [](const Vec3& p) { return p.z() < 0.0; });
+  const VoxelShape shape = wholeShape(cells);
+  RandomGeometry random(1);
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    const Vec3 p(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.02, 0.02));
+    const SignedDistance at = shape.distance(p);
+    EXPECT_NEAR(at.distance, p.z(), 1e-16);
+    EXPECT_NEAR((at.normal - Vec3::UnitZ()).norm(), 0.0, 1e-12);
+    EXPECT_EQ(shape.curvature(p), Mat3::Zero());
+  }
+}
+
+TEST(VoxelShape, WallsOfOneCellKeepTheirThickness)
+{
+  const VoxelShape shape = wholeShape(
+      voxelsOf(1.0, {Cell(-10, -10, 0), Cell(10, 10, 1)}, [](const Vec3&) { return true; }));
+  EXPECT_NEAR(shape.distance({0.3, 0.2, 0.3}).distance, -0.3, 1e-15);
+  EXPECT_NEAR(shape.distance({0.3, 0.2, 0.6}).distance, -0.4, 1e-15);
+}
+
+// The triangles are its own; what is tested is that the nearest is found, from any patch, with the
+// right sign, even where cells touch in edges and corners only.
+TEST(VoxelShape, DistanceMatchesBruteForceOverItsSurface)
+{
+  for (const double share : {0.2, 0.4, 0.6, 0.9})
+  {
+    const VoxelShape shape = wholeShape(randomVoxels(7, kSix, share));
+    const SurfaceMesh surface = shape.surface(10.0);
+    ASSERT_GT(surface.triangles.size(), 50u);
+    RandomGeometry random(8);
+    int inside = 0;
+    for (int trial = 0; trial < 300; ++trial)
+    {
+      const Vec3 p = random.point(4.0);
+      const SignedDistance found = shape.distance(p);
+      const double expected = bruteForceDistance(p, surface.nodes, surface.triangles);
+      EXPECT_NEAR(std::abs(found.distance), expected, 1e-12);
+      EXPECT_EQ(found.distance<0.0, windingNumber(p, surface)> 0.5) << p.transpose();
+      inside += found.distance < 0.0;
+    }
+    EXPECT_GT(inside, 0) << share;
+  }
+}
+
+TEST(VoxelShape, StaysNearTheCubes)
+{
+  for (const double share : {0.1, 0.4, 0.8})
+  {
+    const VoxelSet cells = randomVoxels(9, kSix, share);
+    const VoxelShape shape = wholeShape(cells);
+    RandomGeometry random(10);
+    for (int trial = 0; trial < 500; ++trial)
+    {
+      const Vec3 p = random.point(3.9);
+      EXPECT_NEAR(shape.distance(p).distance, distanceToCubes(cells, kAround, p), kMostMoved);
+    }
+  }
+}
+
+TEST(VoxelShape, NormalIsTheGradientOfDistanceAndUnit)
+{
+  const VoxelShape shape = wholeShape(randomVoxels(11, kSix, 0.5));
+  RandomGeometry random(12);
+  int kinks = 0;
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    const Vec3 p = random.point(4.0);
+    const SignedDistance here = shape.distance(p);
+    EXPECT_NEAR(here.normal.norm(), 1.0, 1e-12);
+    constexpr double kStep = 1e-6;
+    Vec3 difference;
+    Mat3 bend;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const SignedDistance up = shape.distance(p + kStep * Vec3::Unit(axis));
+      const SignedDistance down = shape.distance(p - kStep * Vec3::Unit(axis));
+      difference[axis] = (up.distance - down.distance) / (2.0 * kStep);
+      bend.col(axis) = (up.normal - down.normal) / (2.0 * kStep);
+    }
+    const double allowed = 1e-4 * (1.0 + shape.curvature(p).norm());
+    kinks +=
+        (difference - here.normal).norm() > 1e-4 || (bend - shape.curvature(p)).norm() > allowed;
+  }
+  EXPECT_LE(kinks, 2);  // only points astride a feature's border may differ
+}
+
+// The cubes' own normals are 40 to 53 degrees off.
+TEST(VoxelShape, TurnsStairsIntoSlopes)
+{
+  for (const double slope : {20.0, 30.0, 45.0})
+  {
+    for (const double turn : {0.0, 25.0})
+    {
+      const double a = slope * M_PI / 180.0, b = turn * M_PI / 180.0;
+      const Vec3 normal(-std::sin(a) * std::cos(b), -std::sin(a) * std::sin(b), std::cos(a));
+      const VoxelShape shape =
+          wholeShape(voxelsOf(1.0, {Cell::Constant(-18), Cell::Constant(18)},
+                              [&](const Vec3& p) { return normal.dot(p) < 0.2; }));
+      RandomGeometry random(13);
+      double off = 0.0, height = 0.0;
+      constexpr int kTrials = 1000;
+      for (int trial = 0; trial < kTrials; ++trial)
+      {
+        Vec3 p = random.point(8.0);
+        p += (0.15 - normal.dot(p)) * normal;  // a little inside
+        const SignedDistance at = shape.distance(p);
+        off += std::pow(std::acos(std::min(1.0, at.normal.dot(normal))), 2) / kTrials;
+        height += std::pow(at.distance + 0.05, 2) / kTrials;
+      }
+      off = std::sqrt(off) * 180.0 / M_PI;
+      std::printf("  slope %.0f, turned %.0f: normals %.1f degrees, heights %.3f cells off (rms)\n",
+                  slope, turn, off, std::sqrt(height));
+      EXPECT_LT(off, 12.0);
+      EXPECT_LT(std::sqrt(height), 0.25);
+    }
+  }
+}
+
+TEST(VoxelShape, IsAboutTheBallItWasMadeOf)
+{
+  const VoxelShape shape = wholeShape(voxelsOf(1.0, {Cell::Constant(-13), Cell::Constant(13)},
+                                               [](const Vec3& p) { return p.norm() < 10.0; }));
+  RandomGeometry random(14);
+  double mean = 0.0;
+  for (int trial = 0; trial < 1000; ++trial)
+  {
+    const double distance = shape.distance(10.0 * random.direction()).distance;
+    EXPECT_LT(std::abs(distance), 0.35);
+    mean += 1e-3 * distance;
+  }
+  EXPECT_LT(std::abs(mean), 0.05);
+}
+
+TEST(VoxelShape, WhereItWasCoveredFirstChangesNoBit)
+{
+  const VoxelSet cells = randomVoxels(15, {Cell::Constant(-20), Cell::Constant(20)}, 0.3);
+  const VoxelShape whole = wholeShape(cells);
+  VoxelShape grown(cells);
+  EXPECT_TRUE(grown.cover({Vec3(3.0, 3.0, 3.0), Vec3(5.0, 5.0, 5.0)}));
+  EXPECT_TRUE(grown.cover({Vec3(-5.0, -5.0, 3.0), Vec3(-3.0, -3.0, 5.0)}));
+  EXPECT_FALSE(grown.cover({Vec3(-5.0, -5.0, 3.0), Vec3(4.0, 4.0, 5.0)}));
+  ASSERT_LT(grown.surface(10.0).triangles.size(), whole.surface(10.0).triangles.size());
+  RandomGeometry random(16);
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    // Corners and middles of cells too, which are equally near to several triangles.
+    Vec3 p(random.uniform(-9.0, 9.0), random.uniform(-9.0, 9.0), random.uniform(3.0, 9.0));
+    p = trial % 2 == 0 ? p : Vec3(0.5 * (2.0 * p).array().round());
+    EXPECT_TRUE(sameBits(grown.distance(p), whole.distance(p))) << p.transpose();
+  }
+}
+
+TEST(VoxelShape, AfterAChangeIsWhatItWouldHaveBeenMadeAs)
+{
+  const CellBox all = {Cell::Constant(-20), Cell::Constant(20)};
+  const VoxelSet cells = randomVoxels(17, all, 0.3);
+  const CellBox box = {Cell(-2, 1, -4), Cell(3, 4, 1)};
+  VoxelShape changed = wholeShape(cells);
+  changed.change(box, true);
+  VoxelSet filled = cells;
+  filled.fill(box, true);
+  const VoxelShape made = wholeShape(filled);
+  RandomGeometry random(18);
+  for (int trial = 0; trial < 1000; ++trial)
+  {
+    const Vec3 p = random.point(trial % 2 == 0 ? 8.0 : 20.0);
+    EXPECT_TRUE(sameBits(changed.distance(p), made.distance(p))) << p.transpose();
+  }
+}
+
+TEST(VoxelShape, KnowsInsideFromOutsideWhereNothingIsCovered)
+{
+  VoxelSet solid(1.0, true);
+  solid.fill({Cell::Zero(), Cell::Constant(4)}, false);
+  const VoxelShape shape(solid);
+  EXPECT_TRUE(std::isinf(shape.distance(Vec3::Constant(2.0)).distance));
+  EXPECT_LT(shape.distance(Vec3::Constant(50.0)).distance, -1.0);
+  const VoxelShape whole = wholeShape(solid);
+  EXPECT_NEAR(whole.distance(Vec3::Constant(2.0)).distance, 2.0, kMostMoved);
+  EXPECT_NEAR(whole.distance({2.0, 2.0, 4.5}).distance, -0.5, kMostMoved);
+  EXPECT_LT(whole.distance(Vec3::Constant(50.0)).distance, -70.0);
+}
+
+}  // namespace
+}  // namespace soft_tissue
