@@ -29,6 +29,9 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
 {
   tissue_info_.reserve(config_.tissues.size());
   tissues_.resize(config_.tissues.size());
+  group_.resize(tissues_.size());
+  held_.resize(tissues_.size());
+  spin_.resize(tissues_.size());
   for (std::size_t k = 0; k < config_.tissues.size(); ++k)
   {
     addTissue(k);

@@ -86,6 +86,14 @@ class Scene::Impl
     bool refresh = true;
     std::optional<double> max_penetration_m;
   };
+  /** How a group of tissues moves as a whole. */
+  struct Motion
+  {
+    double mass = 0.0;
+    Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
+    Vec3 spin = Vec3::Zero();     ///< angular momentum about the centre
+    Mat3 inertia = Mat3::Zero();  ///< moments of inertia about the centre
+  };
   struct SavedState
   {
     Points x, v, acceleration;
@@ -118,9 +126,12 @@ class Scene::Impl
   void standStillIfBetter(double potential);
   void extrapolate(double h, double end_s);
   void placeMovedNodes(double time_s, Points& x) const;
-  std::vector<std::vector<NodeRange>> freeBodies();
+  template <typename Visit>
+  void forEachNodeOf(std::size_t group, const Visit& visit) const;
+  Motion motionOf(std::size_t group, const Points& x) const;
+  void findGroups();
   void takeVelocities(double h);
-  void keepSpin(const std::vector<NodeRange>& ranges, const Vec3& spin, double h);
+  void keepSpin(std::size_t group, double h);
   void setOff();
   void stop();
   void finishStep();
@@ -133,6 +144,9 @@ class Scene::Impl
   std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
   Points x_, x_rest_, v_;
   Points acceleration_;  ///< of the last step, to start the next one from; moves nothing by itself
+  std::vector<std::size_t> group_;  ///< per tissue: the first of those it touches, itself included
+  std::vector<char> held_;          ///< per tissue: something outside holds it or its group
+  Points spin_;                     ///< per free group: its spin when the step began
   std::vector<double> masses_;
   std::unique_ptr<Inertia> inertia_;
   std::unique_ptr<Gravity> gravity_;

