@@ -10,8 +10,9 @@ namespace
 /** The unit a key's ending names, as it is written in tables. */
 std::string unitOf(const std::string& key)
 {
-  constexpr std::array<std::array<const char*, 2>, 7> units = {{{"_pa_per_m", "Pa/m"},
+  constexpr std::array<std::array<const char*, 2>, 8> units = {{{"_pa_per_m", "Pa/m"},
                                                                 {"_m_per_s2", "m/s²"},
+                                                                {"_m_per_s", "m/s"},
                                                                 {"_kg_per_m3", "kg/m³"},
                                                                 {"_pa", "Pa"},
                                                                 {"_rad", "rad"},
