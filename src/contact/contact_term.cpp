@@ -10,10 +10,11 @@
 
 namespace soft_tissue
 {
-ContactTerm::ContactTerm(const ContactOptions& options, const std::vector<NodeRange>& ranges)
+ContactTerm::ContactTerm(const ContactOptions& options, const std::vector<TissueBody>& bodies)
     : options_(options),
-      ranges_(ranges),
-      bodies_(ranges.size()),
+      bodies_(bodies),
+      nodes_(bodies.size()),
+      points_(bodies.size()),
       friction_(std::make_unique<Friction>(options.friction))
 {}
 
@@ -21,20 +22,24 @@ ContactTerm::~ContactTerm() = default;
 
 void ContactTerm::takeBodies(const Points& x)
 {
-  for (std::size_t k = 0; k < ranges_.size(); ++k)
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
   {
-    const auto first = x.begin() + ranges_[k].first;
-    bodies_[k].assign(first, first + ranges_[k].count);
+    const auto first = x.begin() + bodies_[k].first_node;
+    nodes_[k].assign(first, first + bodies_[k].node_count);
+    if (bodies_[k].points != nullptr)
+    {
+      placePoints(*bodies_[k].points, nodes_[k], points_[k]);
+    }
   }
 }
 
 bool ContactTerm::haveSamplesAt(const Points& x) const
 {
   bool same = have_samples_;
-  for (std::size_t k = 0; k < ranges_.size() && same; ++k)
+  for (std::size_t k = 0; k < bodies_.size() && same; ++k)
   {
-    same = std::memcmp(bodies_[k].data(), x.data() + ranges_[k].first,
-                       ranges_[k].count * sizeof(Vec3)) == 0;
+    same = std::memcmp(nodes_[k].data(), x.data() + bodies_[k].first_node,
+                       nodes_[k].size() * sizeof(Vec3)) == 0;
   }
   return same;
 }

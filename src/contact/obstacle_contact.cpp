@@ -48,7 +48,7 @@ struct ObstacleContact::Parts
 
 ObstacleContact::ObstacleContact(const TissueBody& tissue, std::shared_ptr<VoxelShape> obstacle,
                                  const Pose& X_WO, const ContactOptions& options)
-    : ContactTerm(options, {{tissue.first_node, tissue.node_count}}),
+    : ContactTerm(options, {tissue}),
       parts_(std::make_unique<Parts>(tissue, std::move(obstacle), X_WO, options))
 {}
 
@@ -73,11 +73,7 @@ void ObstacleContact::lagFriction(const Points& x)
   const std::vector<ContactSample>& touching = samples(x);
   const ScopedTimer timer(times().respond);
   friction().begin(x);
-  forEachPress(touching, [&](const ContactSample& sample, std::uint64_t place) {
-    Grip grip = gripOf(sample, x, Pose::Identity());
-    grip.place = place;
-    friction().add(grip);
-  });
+  addGrips(touching, x, Pose::Identity(), friction());
 }
 
 void ObstacleContact::lagPlaces(const Points& x)
@@ -95,11 +91,7 @@ void ObstacleContact::lagPlaces(const Points& x)
 void ObstacleContact::select()
 {
   Parts& p = *parts_;
-  Box3 reach;
-  for (const Index node : p.tissue.surface->nodes)
-  {
-    reach.extend(p.start[node]);
-  }
+  Box3 reach = boundsOf(p.start, p.tissue.surface->nodes);
   reach.grow(p.margin);
   Box3 reach_O = transformed(p.X_OW, reach);
   p.selection.clear();
@@ -109,7 +101,7 @@ void ObstacleContact::select()
   p.tissue_in_obstacle.place(Pose::Identity());
   if (p.obstacle->touches(reach_O))
   {
-    p.selection.select(p.start, *p.tissue.tets, *p.tissue.surface, reach);
+    p.selection.select(p.start, {}, *p.tissue.surface, reach);
   }
   p.tissue_in_obstacle.lagAreas(p.start, p.selection);
   p.tissue_in_obstacle.dropFarther(p.start, p.margin);

@@ -34,7 +34,47 @@ Adjacency trianglesOf(std::size_t count, const std::vector<std::array<Index, 3>>
   }
   return rows;
 }
+
+void addNode(Index row, double weight, ContactSample& sample, int first)
+{
+  int at = first;
+  while (at < sample.count && sample.node[at] != row)
+  {
+    ++at;
+  }
+  if (at == sample.count)
+  {
+    sample.coefficient[at] = 0.0;
+    sample.node[sample.count++] = row;
+  }
+  sample.coefficient[at] += weight;
+}
 }  // namespace
+
+void addNodes(const TissueBody& body, const SurfaceElement& element, double parameter,
+              ContactSample& sample)
+{
+  const int ends = element.nodes[0] == element.nodes[1] ? 1 : 2;
+  const double weights[] = {1.0 - parameter, parameter};
+  const int first = sample.count;
+  for (int end = 0; end < ends; ++end)
+  {
+    if (body.points == nullptr)
+    {
+      sample.node[sample.count] = body.first_node + element.nodes[end];
+      sample.coefficient[sample.count++] = weights[end];
+      continue;
+    }
+    const SurfacePoints::Point& point = body.points->points[element.nodes[end]];
+    for (int k = 0; k < 3; ++k)
+    {
+      if (point.weight[k] != 0.0)
+      {
+        addNode(body.first_node + point.node[k], weights[end] * point.weight[k], sample, first);
+      }
+    }
+  }
+}
 
 int cellsOf(double length, double cell)
 {

@@ -3,7 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "soft_tissue_sim/mesh/topology.h"
+#include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/contact/tissue_body.h"
 
 namespace soft_tissue
 {
@@ -14,6 +15,10 @@ struct SurfaceElement
   double area = 0.0;             ///< m^2
   int cells = 1;                 ///< equal parts an edge is cut into for its quadrature
 };
+
+/** Adds the nodes that a body's element has its point at a parameter from, with their weights. */
+void addNodes(const TissueBody& body, const SurfaceElement& element, double parameter,
+              ContactSample& sample);
 
 /** Parts no longer than `cell`, m; one where that is zero. */
 int cellsOf(double length, double cell);

@@ -255,19 +255,14 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field,
   {
     return false;
   }
-  if (intruder_.first_row >= 0)
+  if (intruder_.body)
   {
-    const auto& nodes = (*elements_)[place.element].nodes;
-    for (int k = 0; k < (segments_ ? 2 : 1); ++k)
-    {
-      sample.node[sample.count] = intruder_.first_row + nodes[k];
-      sample.coefficient[sample.count++] = k == 0 ? 1.0 - place.parameter : place.parameter;
-    }
+    addNodes(*intruder_.body, (*elements_)[place.element], place.parameter, sample);
   }
   sample.host = host.tet;
   sample.element = place.element;
   sample.side = intruder_.side;
-  sample.area = 0.5 * place.area;  // the two directions of the pair are averaged
+  sample.area = intruder_.share * place.area;
   sample.stiffness_area = stiffness_ * sample.area;
   sample.force = sample.stiffness_area * sample.depth;
   return sample.depth > 0.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "soft_tissue_sim/collision/pair_finder.h"
@@ -14,8 +15,9 @@ namespace soft_tissue
 /** Whose surface intrudes into a tissue. */
 struct Intruder
 {
-  int side = 1;          ///< ContactSample::side of its samples
-  Index first_row = -1;  ///< row of its node 0 among all positions; -1: it is rigid
+  int side = 1;        ///< ContactSample::side of its samples
+  double share = 0.5;  ///< of its area that counts: half where the other direction does too
+  std::optional<TissueBody> body;  ///< none: it is rigid
   /** Its nodes at rest where it is the host itself, m: its own surface is near everywhere, and only
    * what is nearer to the host's point at rest is what it went through. Null for another body. */
   const Points* rest = nullptr;

@@ -20,11 +20,6 @@ namespace
  * short edges; to this comes how far they were last step, up to a whole edge. */
 constexpr double kMarginOfEdge = 0.25, kMostOff = 0.75;
 
-NodeRange rangeOf(const TissueBody& body)
-{
-  return {body.first_node, body.node_count};
-}
-
 const TissueBody& withRest(const TissueBody& body)
 {
   if (body.rest == nullptr)
@@ -38,7 +33,8 @@ const TissueBody& withRest(const TissueBody& body)
 struct TissueContact::Parts
 {
   std::vector<TissueBody> bodies;     ///< one, or two
-  std::vector<TissueInTissue> sides;  ///< of one body the one, of two: first in second, and back
+  std::vector<TissueInTissue> sides;  ///< of one body the one, of two: first in second, and back,
+                                      ///< if it can
   std::array<Points, 2> start;        ///< of bodies, at the start of the step
   std::array<Points, 2> expected;     ///< and where they were expected to go
   double margin = 0.0;  ///< how much nearer bodies may come before candidates are too few, m
@@ -50,17 +46,23 @@ struct TissueContact::Parts
 };
 
 TissueContact::TissueContact(Side first, Side second, const ContactOptions& options)
-    : ContactTerm(options, {rangeOf(first.body), rangeOf(second.body)}),
-      parts_(std::make_unique<Parts>())
+    : ContactTerm(options, {first.body, second.body}), parts_(std::make_unique<Parts>())
 {
+  if (!second.body.isSolid())
+  {
+    throw Error("the second of two tissues in contact is a membrane, which has no inside");
+  }
   Parts& p = *parts_;
   p.bodies = {first.body, second.body};
   p.sides.emplace_back(first.body, second.body, std::move(second.field), 1, false, options);
-  p.sides.emplace_back(second.body, first.body, std::move(first.field), -1, false, options);
+  if (first.body.isSolid())
+  {
+    p.sides.emplace_back(second.body, first.body, std::move(first.field), -1, false, options);
+  }
 }
 
 TissueContact::TissueContact(Side self, const ContactOptions& options)
-    : ContactTerm(options, {rangeOf(self.body)}), parts_(std::make_unique<Parts>())
+    : ContactTerm(options, {self.body}), parts_(std::make_unique<Parts>())
 {
   parts_->bodies = {withRest(self.body)};
   parts_->sides.emplace_back(self.body, self.body, std::move(self.field), 1, true, options);

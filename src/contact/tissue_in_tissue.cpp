@@ -25,7 +25,8 @@ Intruder intruderOf(const TissueBody& body, int side, bool self)
 {
   Intruder intruder;
   intruder.side = side;
-  intruder.first_row = body.first_node;
+  intruder.share = body.isSolid() ? 0.5 : 1.0;
+  intruder.body = body;
   intruder.rest = self ? body.rest : nullptr;
   return intruder;
 }

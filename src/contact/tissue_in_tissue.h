@@ -9,7 +9,7 @@
 
 namespace soft_tissue
 {
-/** Samples of one tissue's surface in another tissue, or in itself. */
+/** Samples of the surface of a tissue or a membrane in another tissue, or in itself. */
 class TissueInTissue
 {
  public:

@@ -105,9 +105,7 @@ void TissueInTool::addPoint(const SurfaceElement& point, const Points& x,
   ContactSample sample;
   if (bounds_W_.contains(x[node]) && measure(x[node], point.area, sample))
   {
-    sample.count = 1;
-    sample.node[0] = tissue_.first_node + node;
-    sample.coefficient[0] = 1.0;
+    addNodes(tissue_, point, 0.0, sample);
     samples.push_back(sample);
   }
 }
@@ -133,11 +131,7 @@ void TissueInTool::addEdge(const SurfaceElement& edge, const Points& x,
     return SegmentDistance{at.distance, at.normal.dot(along_T)};
   };
   const auto sampleAt = [&](double parameter, double area, ContactSample& sample) {
-    sample.count = 2;
-    sample.node[0] = tissue_.first_node + nodes[0];
-    sample.node[1] = tissue_.first_node + nodes[1];
-    sample.coefficient[0] = 1.0 - parameter;
-    sample.coefficient[1] = parameter;
+    addNodes(tissue_, edge, parameter, sample);
     return measure(a + parameter * along, area, sample);
   };
   const auto addStretch = [&](const InsideInterval& inside) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "body_motion.h"
@@ -20,23 +21,16 @@ namespace
  * comes what it moved last step. */
 constexpr double kMarginOfRadius = 0.5;
 
-Box3 boundsOf(const Points& x, const std::vector<Index>& nodes)
-{
-  Box3 box;
-  for (const Index node : nodes)
-  {
-    box.extend(x[node]);
-  }
-  return box;
-}
+const std::vector<Tet> kNoTets;
+const std::vector<double> kNoDepths;
 }  // namespace
 
 struct ToolContact::Parts
 {
   TissueBody tissue;
   RigidBodyShape tool;
-  HostField field;
-  ToolInTissue tool_in_tissue;
+  std::optional<HostField> field;  ///< of the tissue; none of a membrane
+  std::optional<ToolInTissue> tool_in_tissue;
   TissueInTool tissue_in_tool;
 
   Pose X_WT = Pose::Identity();  ///< the tool's, where samples are taken
@@ -47,17 +41,19 @@ struct ToolContact::Parts
 
   Parts(const TissueBody& body, const RigidBodyShape& shape, std::unique_ptr<DistanceField> depths,
         const ContactOptions& options)
-      : tissue(body),
-        tool(shape),
-        field(std::move(depths), body.node_count, options.lazy_field),
-        tool_in_tissue(tissue, tool, options),
-        tissue_in_tool(tissue, tool, options)
-  {}
+      : tissue(body), tool(shape), tissue_in_tool(tissue, tool, options, body.isSolid() ? 0.5 : 1.0)
+  {
+    if (body.isSolid())
+    {
+      field.emplace(std::move(depths), body.node_count, options.lazy_field);
+      tool_in_tissue.emplace(tissue, tool, options);
+    }
+  }
 };
 
 ToolContact::ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
                          std::unique_ptr<DistanceField> field, const ContactOptions& options)
-    : ContactTerm(options, {{tissue.first_node, tissue.node_count}}),
+    : ContactTerm(options, {tissue}),
       parts_(std::make_unique<Parts>(tissue, tool, std::move(field), options))
 {}
 
@@ -85,12 +81,7 @@ void ToolContact::lagFriction(const Points& x, const Pose& X_WT_before, const Po
   const std::vector<ContactSample>& touching = samples(x);
   const ScopedTimer timer(times().respond);
   friction().begin(x);
-  const Pose motion = X_WT * X_WT_before.inverse();
-  forEachPress(touching, [&](const ContactSample& sample, std::uint64_t place) {
-    Grip grip = gripOf(sample, x, motion);
-    grip.place = place;
-    friction().add(grip);
-  });
+  addGrips(touching, x, X_WT * X_WT_before.inverse(), friction());
 }
 
 void ToolContact::lagPlaces(const Points& x, const Pose& X_WT_before, const Pose& X_WT,
@@ -115,13 +106,19 @@ void ToolContact::lagPlaces(const Points& x, const Pose& X_WT_before, const Pose
     p.selection.clear();
     if (boundsOf(p.start, p.tissue.surface->nodes).overlaps(reach))
     {
-      p.tool_in_tissue.place(X_WT);
+      if (p.tool_in_tissue)
+      {
+        p.tool_in_tissue->place(X_WT);
+      }
       select();
     }
   }
-  p.field.beginStep(p.start, refresh);
-  p.field.expect(p.selection.tetNodes());
-  times().field += p.field.takeTime();
+  if (p.field)
+  {
+    p.field->beginStep(p.start, refresh);
+    p.field->expect(p.selection.tetNodes());
+    times().field += p.field->takeTime();
+  }
 }
 
 void ToolContact::select()
@@ -129,9 +126,13 @@ void ToolContact::select()
   Parts& p = *parts_;
   Box3 reach = p.swept;
   reach.grow(p.margin);
-  p.selection.select(p.start, *p.tissue.tets, *p.tissue.surface, reach);
+  p.selection.select(p.start, p.tissue.isSolid() ? *p.tissue.tets : kNoTets, *p.tissue.surface,
+                     reach);
   p.tissue_in_tool.lagAreas(p.start, p.selection);
-  p.field.expect(p.selection.tetNodes());
+  if (p.field)
+  {
+    p.field->expect(p.selection.tetNodes());
+  }
 }
 
 void ToolContact::collect(std::vector<ContactSample>& samples)
@@ -148,28 +149,31 @@ void ToolContact::collect(std::vector<ContactSample>& samples)
       p.margin = std::isfinite(motion) ? 2.0 * motion : std::numeric_limits<double>::max() / 4.0;
       select();
     }
-    hosted = p.tool_in_tissue.findHosts(body(0), p.selection.tets());
+    hosted = p.tool_in_tissue && p.tool_in_tissue->findHosts(body(0), p.selection.tets());
   }
   Timer timer;
   if (hosted)
   {
-    p.tool_in_tissue.addSamples(p.field.ready(), samples);
+    p.tool_in_tissue->addSamples(p.field->ready(), samples);
   }
   p.tissue_in_tool.addSamples(body(0), samples);
-  const double marched_s = p.field.takeTime();
+  const double marched_s = p.field ? p.field->takeTime() : 0.0;
   times().field += marched_s;
   times().respond += timer.seconds() - marched_s;
 }
 
 DepthCurvature ToolContact::curvature(const ContactSample& sample) const
 {
-  return sample.side > 0 ? parts_->tool_in_tissue.curvature(sample)
+  return sample.side > 0 ? parts_->tool_in_tissue->curvature(sample)
                          : parts_->tissue_in_tool.curvature(sample);
 }
 
 void ToolContact::setStiffness(double pa_per_m)
 {
-  parts_->tool_in_tissue.setStiffness(pa_per_m);
+  if (parts_->tool_in_tissue)
+  {
+    parts_->tool_in_tissue->setStiffness(pa_per_m);
+  }
   parts_->tissue_in_tool.setStiffness(pa_per_m);
 }
 
@@ -180,12 +184,15 @@ bool ToolContact::active() const
 
 void ToolContact::forgetField()
 {
-  parts_->field.forget();
+  if (parts_->field)
+  {
+    parts_->field->forget();
+  }
 }
 
 const std::vector<double>& ToolContact::depth() const
 {
-  return parts_->field.depth();
+  return parts_->field ? parts_->field->depth() : kNoDepths;
 }
 
 }  // namespace soft_tissue

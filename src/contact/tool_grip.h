@@ -21,4 +21,15 @@ inline Grip gripOf(const ContactSample& sample, const Points& x, const Pose& mot
   return grip;
 }
 
+/** Adds the grips of all samples that press. */
+inline void addGrips(const std::vector<ContactSample>& samples, const Points& x, const Pose& motion,
+                     Friction& friction)
+{
+  forEachPress(samples, [&](const ContactSample& sample, std::uint64_t place) {
+    Grip grip = gripOf(sample, x, motion);
+    grip.place = place;
+    friction.add(grip);
+  });
+}
+
 }  // namespace soft_tissue

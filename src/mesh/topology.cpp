@@ -117,6 +117,14 @@ void collectBoundaryEdges(Index node_count, BoundarySurface& out)
     }
   }
 }
+
+/** Nodes and edges of the triangles that are there. */
+void collectParts(Index node_count, BoundarySurface& out)
+{
+  out.node_triangles = incidence(node_count, out.triangles);
+  collectBoundaryNodes(node_count, out);
+  collectBoundaryEdges(node_count, out);
+}
 }  // namespace
 
 Adjacency groupTetFaces(Index node_count, const std::vector<Tet>& tets)
@@ -166,9 +174,15 @@ BoundarySurface extractBoundary(Index node_count, const std::vector<Tet>& tets)
 {
   BoundarySurface out;
   collectBoundaryTriangles(node_count, tets, out);
-  out.node_triangles = incidence(node_count, out.triangles);
-  collectBoundaryNodes(node_count, out);
-  collectBoundaryEdges(node_count, out);
+  collectParts(node_count, out);
+  return out;
+}
+
+BoundarySurface surfaceOf(Index node_count, const std::vector<Triangle>& triangles)
+{
+  BoundarySurface out;
+  out.triangles = triangles;
+  collectParts(node_count, out);
   return out;
 }
 

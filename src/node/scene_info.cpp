@@ -6,11 +6,17 @@ namespace soft_tissue_sim
 {
 namespace
 {
-std::uint64_t topologyId(const soft_tissue::TetMesh& mesh)
+std::uint64_t topologyId(const soft_tissue::TissueInfo& tissue)
 {
   soft_tissue::StateHash hash;
-  hash.addValue(mesh.nodes.size());
-  hash.add(mesh.tets.data(), mesh.tets.size() * sizeof(soft_tissue::Tet));
+  hash.addValue(tissue.rest.nodes.size());
+  const auto& tets = tissue.rest.tets;
+  const auto& triangles = tissue.surface.triangles;
+  hash.add(tets.data(), tets.size() * sizeof(soft_tissue::Tet));
+  if (tissue.isMembrane())
+  {
+    hash.add(triangles.data(), triangles.size() * sizeof(soft_tissue::Triangle));
+  }
   return hash.value();
 }
 
@@ -22,7 +28,7 @@ SceneInfo::SceneInfo(const soft_tissue::Scene& scene)
   for (const soft_tissue::TissueInfo& tissue : tissues)
   {
     tissue_names.push_back(tissue.name);
-    topology_ids.push_back(topologyId(tissue.rest));
+    topology_ids.push_back(topologyId(tissue));
   }
   soft_tissue::Snapshot snapshot;
   scene.fillSnapshot(snapshot);

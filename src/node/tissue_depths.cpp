@@ -12,12 +12,12 @@ TissueDepths::TissueDepths(const SceneInfo& info, const soft_tissue::SceneConfig
   {
     View& view = views_.emplace_back();
     const soft_tissue::TissueInfo& tissue = info.tissues[i];
-    const bool touchable = std::any_of(
-        config.contacts.begin(), config.contacts.end(),
-        [&](const soft_tissue::ContactConfig& contact) {
-          return contact.tissue == tissue.name || contact.other == tissue.name;
-        });
-    if (touchable)
+    const bool touchable =
+        std::any_of(config.contacts.begin(), config.contacts.end(),
+                    [&](const soft_tissue::ContactConfig& contact) {
+                      return contact.tissue == tissue.name || contact.other == tissue.name;
+                    });
+    if (touchable && !tissue.isMembrane())
     {
       const auto node_count = static_cast<soft_tissue::Index>(tissue.rest.nodes.size());
       view.node_neighbours = soft_tissue::nodeNeighbours(node_count, tissue.rest.tets);

@@ -34,7 +34,7 @@ std::vector<Index> nodesIn(const BoxConfig& box, const Points& nodes, const std:
   return found;
 }
 
-std::vector<Index> fixedNodes(const TissueConfig& config, const Points& nodes,
+std::vector<Index> fixedNodes(const SoftBodyConfig& config, const Points& nodes,
                               const std::string& where)
 {
   std::vector<Index> all;
@@ -49,7 +49,7 @@ std::vector<Index> fixedNodes(const TissueConfig& config, const Points& nodes,
 }
 
 /** Nodes that key frames move; each in one way only. */
-std::vector<std::vector<Index>> movedNodes(const TissueConfig& config, const TissueInfo& info,
+std::vector<std::vector<Index>> movedNodes(const SoftBodyConfig& config, const TissueInfo& info,
                                            const std::string& where)
 {
   std::vector<char> held(info.rest.nodes.size(), 0);
@@ -144,21 +144,45 @@ std::vector<std::string> remarksOn(const std::string& file, const LoadReport& re
   }
   return remarks;
 }
+
+/** What a body is by its mesh alone; of a membrane the tets are none. */
+TissueInfo infoOf(const SoftBodyConfig& config, TetMesh mesh, const LoadReport& report)
+{
+  TissueInfo info;
+  info.name = config.name;
+  info.remarks = remarksOn(config.mesh.file, report);
+  info.rest = std::move(mesh);
+  const Pose X_WB = config.pose.toPose();
+  for (Vec3& p : info.rest.nodes)
+  {
+    p = X_WB * p;
+  }
+  return info;
+}
+
+std::vector<double> edgeLengths(const TissueInfo& tissue)
+{
+  std::vector<double> lengths;
+  for (const Edge& edge : tissue.surface.edges)
+  {
+    lengths.push_back((tissue.rest.nodes[edge[1]] - tissue.rest.nodes[edge[0]]).norm());
+  }
+  return lengths;
+}
+
+void hold(const SoftBodyConfig& config, const std::string& where, SoftBodyModel& model)
+{
+  model.info.fixed_nodes = fixedNodes(config, model.info.rest.nodes, where);
+  model.moved = movedNodes(config, model.info, where);
+}
 }  // namespace
 
 TissueModel makeTissue(const TissueConfig& config, const std::string& where)
 {
   TissueModel model;
   LoadedTetMesh loaded = loadTetMesh(config.mesh.file, config.mesh.metres_per_unit);
-  model.info.name = config.name;
-  model.info.remarks = remarksOn(config.mesh.file, loaded.report);
-  model.info.rest = std::move(loaded.mesh);
-  TetMesh& rest = model.info.rest;
-  const Pose X_WB = config.pose.toPose();
-  for (Vec3& p : rest.nodes)
-  {
-    p = X_WB * p;
-  }
+  model.info = infoOf(config, std::move(loaded.mesh), loaded.report);
+  const TetMesh& rest = model.info.rest;
   for (std::size_t t = 0; t < rest.tets.size(); ++t)
   {
     const Tet& tet = rest.tets[t];
@@ -170,8 +194,7 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
     }
   }
   model.info.surface = extractBoundary(static_cast<Index>(rest.nodes.size()), rest.tets);
-  model.info.fixed_nodes = fixedNodes(config, rest.nodes, where);
-  model.moved = movedNodes(config, model.info, where);
+  hold(config, where, model);
   const MaterialConfig& material = config.material;
   model.stiffness.assign(rest.tets.size(), {material.young_modulus_pa, material.poisson_ratio});
   model.densities.assign(rest.tets.size(), material.density_kg_per_m3);
@@ -179,9 +202,52 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
   return model;
 }
 
+SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& where)
+{
+  SoftBodyModel model;
+  LoadedMesh loaded = loadMesh(config.mesh.file, config.mesh.metres_per_unit);
+  if (!loaded.volume.tets.empty())
+  {
+    throw Error(config.mesh.file + " has tets, a membrane must be a mesh of triangles");
+  }
+  const std::vector<Triangle>& triangles = loaded.surface.triangles;
+  if (triangles.empty())
+  {
+    throw Error(config.mesh.file + " has no triangles, a membrane needs some");
+  }
+  model.info = infoOf(config, {std::move(loaded.surface.nodes), {}, {}}, loaded.report);
+  const Points& nodes = model.info.rest.nodes;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    const Vec3& a = nodes[triangles[t][0]];
+    if (!((nodes[triangles[t][1]] - a).cross(nodes[triangles[t][2]] - a).norm() > 0.0))
+    {
+      throw Error(config.mesh.file + ": triangle " + std::to_string(t) +
+                  " has no area, can't be simulated");
+    }
+  }
+  model.info.surface = surfaceOf(static_cast<Index>(nodes.size()), triangles);
+  hold(config, where, model);
+  return model;
+}
+
 std::string item(const SceneConfig& config, const char* list, std::size_t index)
 {
   return config.file + ": " + list + "[" + std::to_string(index) + "]";
+}
+
+double shortEdge(const TissueInfo& tissue)
+{
+  std::vector<double> lengths = edgeLengths(tissue);
+  const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
+  std::nth_element(lengths.begin(), tenth, lengths.end());
+  return *tenth;
+}
+
+double longestEdge(const TissueInfo& tissue)
+{
+  const std::vector<double> lengths = edgeLengths(tissue);
+  return *std::max_element(lengths.begin(), lengths.end());
 }
 
 double innerRadius(const TetMesh& rest, const BoundarySurface& surface)

@@ -10,13 +10,17 @@
 
 namespace soft_tissue
 {
-/** A tissue as its configuration says, before it has a place among the scene's nodes. */
-struct TissueModel
+/** A soft body as its configuration says, before it has a place among the scene's nodes. */
+struct SoftBodyModel
 {
   TissueInfo info;
+  std::vector<std::vector<Index>> moved;  ///< nodes of each SoftBodyConfig::keyframes
+};
+
+struct TissueModel : SoftBodyModel
+{
   std::vector<TetStiffnessParameters> stiffness;  ///< per tet
   std::vector<double> densities;                  ///< per tet, kg/m^3
-  std::vector<std::vector<Index>> moved;          ///< nodes of each TissueConfig::keyframes
 };
 
 /**
@@ -26,8 +30,20 @@ struct TissueModel
  */
 TissueModel makeTissue(const TissueConfig& config, const std::string& where);
 
+/**
+ * Loads, places and checks one membrane.
+ * @throws Error for a bad mesh or one with tets, a fixed box without nodes
+ */
+SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& where);
+
 /** "<scene file>: list[index]", for messages. */
 std::string item(const SceneConfig& config, const char* list, std::size_t index);
+
+/** The length a tenth of a body's surface edges fall short of, m. */
+double shortEdge(const TissueInfo& tissue);
+
+/** Length of the longest of them, m. */
+double longestEdge(const TissueInfo& tissue);
 
 /** Radius of about the largest ball that fits in a body, m: the largest distance of a node or of a
  * tet's middle from the boundary. */

@@ -17,12 +17,12 @@ bool hasName(const Bodies& bodies, const std::string& name)
  * is its bare name. */
 const char* const kMarkersOfPairs = "tissue_pairs";
 
-/** Tissues, tools and obstacles share one name space, for their names become namespaces of topics
- * and markers. */
+/** Soft bodies, tools and obstacles share one name space, for their names become namespaces of
+ * topics and markers. */
 void checkNames(const Item& scene)
 {
   std::vector<Item> names;
-  for (const char* list : {"tissues", "tools", "obstacles"})
+  for (const char* list : {"tissues", "membranes", "tools", "obstacles"})
   {
     const std::size_t size = scene.has(list) ? scene.at(list).size() : 0;
     for (std::size_t i = 0; i < size; ++i)
@@ -50,23 +50,27 @@ bool isRigid(const SceneConfig& scene, const std::string& name)
   return hasName(scene.tools, name) || hasName(scene.obstacles, name);
 }
 
-/** Puts a pair of a tissue and a tool or obstacle in this order. */
+/** Puts a soft body before a tool or obstacle, and a membrane before a tissue. */
 void orderPair(const Item& between, const SceneConfig& scene, ContactConfig& contact)
 {
   for (const std::string& name : {contact.tissue, contact.other})
   {
-    if (!hasName(scene.tissues, name) && !isRigid(scene, name))
+    if (!hasName(scene.tissues, name) && !hasName(scene.membranes, name) && !isRigid(scene, name))
     {
-      between.rejectValue("there is no tissue, tool or obstacle '" + name + "'");
+      between.rejectValue("there is no tissue, membrane, tool or obstacle '" + name + "'");
     }
   }
-  if (isRigid(scene, contact.tissue))
+  if (isRigid(scene, contact.tissue) || hasName(scene.membranes, contact.other))
   {
     std::swap(contact.tissue, contact.other);
   }
   if (isRigid(scene, contact.tissue))
   {
-    between.rejectValue("must have a tissue; tools and obstacles don't touch each other");
+    between.rejectValue("must have a tissue or a membrane; tools and obstacles don't touch");
+  }
+  if (hasName(scene.membranes, contact.other))
+  {
+    between.rejectValue("must have a tissue, tool or obstacle; membranes don't touch each other");
   }
 }
 
@@ -83,6 +87,10 @@ void checkScene(const Item& item, SceneConfig& scene)
   if (item.has("materials"))
   {
     loadPresets(item.at("materials"), item.at("materials").scalar());
+  }
+  if (scene.tissues.empty() && scene.membranes.empty())
+  {
+    item.rejectKey("tissues", "missing, must have a tissue, or membranes a membrane");
   }
   checkNames(item);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)

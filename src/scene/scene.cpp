@@ -15,7 +15,7 @@ void Scene::Impl::setOff()
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
     std::fill_n(v_.begin() + tissues_[k].first_node, tissues_[k].node_count,
-                config_.tissues[k].velocity_m_per_s);
+                config_.softBody(k).velocity_m_per_s);
   }
   newton_->restoreFixed(still, v_);
 }
@@ -77,9 +77,9 @@ void Scene::Impl::fillSnapshot(Snapshot& snapshot)
     state.positions.assign(first, first + tissue.node_count);
     const auto first_v = v_.begin() + tissue.first_node;
     state.velocities.assign(first_v, first_v + tissue.node_count);
-    if (config_.outputs.stress)
+    if (config_.outputs.stress && tissue.tets != nullptr)
     {
-      tissue.elasticity->vonMises(x_, state.von_mises);
+      tissue.tets->vonMises(x_, state.von_mises);
     }
   }
   snapshot.tools.resize(tools_.size());

@@ -4,6 +4,7 @@
 #include "bodies.h"
 #include "scene_impl.h"
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/energy/membrane_elasticity.h"
 
 namespace soft_tissue
 {
@@ -27,14 +28,14 @@ double smallestSize(const std::vector<TissueInfo>& tissues)
 
 Scene::Impl::Impl(const SceneConfig& config) : config_(config)
 {
-  tissue_info_.reserve(config_.tissues.size());
-  tissues_.resize(config_.tissues.size());
+  tissues_.resize(config_.tissues.size() + config_.membranes.size());
+  tissue_info_.reserve(tissues_.size());
   group_.resize(tissues_.size());
   held_.resize(tissues_.size());
   spin_.resize(tissues_.size());
-  for (std::size_t k = 0; k < config_.tissues.size(); ++k)
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
-    addTissue(k);
+    k < config_.tissues.size() ? addTissue(k) : addMembrane(k);
   }
   x_rest_ = x_;
   v_.resize(x_.size());
@@ -61,19 +62,18 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   showObstacles();
 }
 
-void Scene::Impl::addTissue(std::size_t index)
+Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, SoftBodyModel& model)
 {
-  const TissueConfig& tissue_config = config_.tissues[index];
-  TissueModel model = makeTissue(tissue_config, item(config_, "tissues", index));
-  Tissue& tissue = tissues_[index];
+  const SoftBodyConfig& config = config_.softBody(index);
   tissue_info_.push_back(std::move(model.info));
   const TissueInfo& info = tissue_info_.back();
   if (config_.solver.stepper == Stepper::quasi_static && info.fixed_nodes.empty() &&
       model.moved.empty())
   {
-    throw Error(item(config_, "tissues", index) +
-                ".fixed is empty: a quasi-static tissue needs a fixed region");
+    throw Error(itemOf(index) + ".fixed is empty: a quasi-static " +
+                (info.isMembrane() ? "membrane" : "tissue") + " needs a fixed region");
   }
+  Tissue& tissue = tissues_[index];
   tissue.first_node = static_cast<Index>(x_.size());
   for (std::size_t k = 0; k < model.moved.size(); ++k)
   {
@@ -84,7 +84,7 @@ void Scene::Impl::addTissue(std::size_t index)
     {
       row += tissue.first_node;
     }
-    const std::vector<PoseKeyframe>& motion = tissue_config.keyframes[k].motion;
+    const std::vector<PoseKeyframe>& motion = config.keyframes[k].motion;
     moved.X_FW = motion[0].pose.toPose().inverse();
     for (const PoseKeyframe& keyframe : motion)
     {
@@ -94,12 +94,44 @@ void Scene::Impl::addTissue(std::size_t index)
     moved_.push_back(std::move(moved));
   }
   tissue.node_count = static_cast<Index>(info.rest.nodes.size());
-  tissue.neighbours = nodeNeighbours(tissue.node_count, info.rest.tets);
-  tissue.elasticity = std::make_unique<TetElasticity>(info.rest, tissue_config.material.model,
-                                                      model.stiffness, tissue.first_node);
+  tissue.short_edge = shortEdge(info);
   x_.insert(x_.end(), info.rest.nodes.begin(), info.rest.nodes.end());
   masses_.resize(x_.size(), 0.0);
-  addLumpedMasses(info.rest, model.densities, tissue.first_node, masses_);
+  return tissue;
+}
+
+void Scene::Impl::addTissue(std::size_t index)
+{
+  TissueModel model = makeTissue(config_.tissues[index], itemOf(index));
+  Tissue& tissue = addSoftBody(index, model);
+  const TetMesh& rest = tissue_info_[index].rest;
+  tissue.neighbours = nodeNeighbours(tissue.node_count, rest.tets);
+  auto elasticity = std::make_unique<TetElasticity>(rest, config_.tissues[index].material.model,
+                                                    model.stiffness, tissue.first_node);
+  tissue.tets = elasticity.get();
+  tissue.elasticity = std::move(elasticity);
+  addLumpedMasses(rest, model.densities, tissue.first_node, masses_);
+}
+
+void Scene::Impl::addMembrane(std::size_t index)
+{
+  const MembraneConfig& config = config_.membranes[index - config_.tissues.size()];
+  SoftBodyModel model = makeMembrane(config, itemOf(index));
+  Tissue& membrane = addSoftBody(index, model);
+  const TissueInfo& info = tissue_info_[index];
+  const TriMesh rest = {info.rest.nodes, info.surface.triangles};
+  membrane.neighbours = membraneNeighbours(membrane.node_count, rest.triangles);
+  const MaterialConfig& material = config.material;
+  membrane.elasticity = std::make_unique<MembraneElasticity>(
+      rest,
+      std::vector<MembraneParameters>(
+          rest.triangles.size(),
+          {material.young_modulus_pa, material.poisson_ratio, config.thickness_m}),
+      membrane.first_node);
+  addLumpedMasses(
+      rest,
+      std::vector<double>(rest.triangles.size(), material.density_kg_per_m3 * config.thickness_m),
+      membrane.first_node, masses_);
 }
 
 void Scene::Impl::makeSolver()
@@ -128,7 +160,7 @@ void Scene::Impl::makeSolver()
   {
     held.insert(held.end(), moved.rows.begin(), moved.rows.end());
   }
-  // Nodes in no tet have no mass and feel no force: they stay where the file puts them.
+  // Nodes in no element have no mass and feel no force: they stay where the file puts them.
   for (std::size_t i = 0; i < masses_.size(); ++i)
   {
     if (masses_[i] == 0.0)

@@ -79,14 +79,24 @@ int Scene::Impl::partsOfStep() const
   return static_cast<int>(std::ceil(std::min(parts, kMostParts)));
 }
 
+/** How far a tissue may move in this step past what drifts, m, and the box it stays in. */
+double Scene::Impl::motionOfTissue(std::size_t index, const Vec3& drift, Box3& reach) const
+{
+  const Tissue& tissue = tissues_[index];
+  const auto first = x_.begin() + tissue.first_node;
+  const double moved =
+      config_.time_step_s * farthestFrom(drift, v_.data() + tissue.first_node, tissue.node_count);
+  std::for_each_n(first, tissue.node_count, [&](const Vec3& p) { reach.extend(p); });
+  reach.grow(moved);
+  return moved;
+}
+
 /** How far a tool and a tissue move past each other in this step, m; 0 where they don't meet. */
 double Scene::Impl::motionOfTool(const Contact& contact) const
 {
   const Tool& tool = tools_[contact.other];
-  const Tissue& tissue = tissues_[contact.tissue];
-  const Vec3* x = x_.data() + tissue.first_node;
-  const double own = config_.time_step_s *
-                     farthestFrom(Vec3::Zero(), v_.data() + tissue.first_node, tissue.node_count);
+  Box3 tissue;
+  const double own = motionOfTissue(contact.tissue, Vec3::Zero(), tissue);
   const double moved = farthestMotion(tool.shape.bounds(), tool.X_WT, tool.X_WT_goal) + own;
   if (!(moved > kMostMotion * contact.size_m))
   {
@@ -95,30 +105,25 @@ double Scene::Impl::motionOfTool(const Contact& contact) const
   Box3 reach = transformed(tool.X_WT, tool.shape.bounds());
   reach.extend(transformed(tool.X_WT_goal, tool.shape.bounds()));
   reach.grow(own);
-  const BoundarySurface& surface = tissue_info_[contact.tissue].surface;
-  const bool near = std::any_of(surface.nodes.begin(), surface.nodes.end(),
-                                [&](Index node) { return reach.contains(x[node]); });
+  const Vec3* x = x_.data() + tissues_[contact.tissue].first_node;
+  const auto& triangles = tissue_info_[contact.tissue].surface.triangles;
+  const bool near = std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    Box3 box;
+    std::for_each(t.begin(), t.end(), [&](Index node) { box.extend(x[node]); });
+    return box.overlaps(reach);
+  });
   return near ? moved : 0.0;
 }
 
 /** The same of two tissues. What both do together does not count. */
 double Scene::Impl::motionOfTissues(const Contact& contact) const
 {
-  const Tissue& a = tissues_[contact.tissue];
   const Tissue& b = tissues_[contact.other];
   const Vec3 drift = mean(v_.data() + b.first_node, b.node_count);
-  const double moved =
-      config_.time_step_s * (farthestFrom(drift, v_.data() + a.first_node, a.node_count) +
-                             farthestFrom(drift, v_.data() + b.first_node, b.node_count));
-  if (!(moved > kMostMotion * contact.size_m))
-  {
-    return 0.0;
-  }
   Box3 box_a, box_b;
-  std::for_each_n(x_.begin() + a.first_node, a.node_count, [&](const Vec3& p) { box_a.extend(p); });
-  std::for_each_n(x_.begin() + b.first_node, b.node_count, [&](const Vec3& p) { box_b.extend(p); });
-  box_a.grow(moved);
-  return box_a.overlaps(box_b) ? moved : 0.0;
+  const double moved =
+      motionOfTissue(contact.tissue, drift, box_a) + motionOfTissue(contact.other, drift, box_b);
+  return moved > kMostMotion * contact.size_m && box_a.overlaps(box_b) ? moved : 0.0;
 }
 
 /** Contacts take the state that the part [from, to] of the step starts with; those that can touch

@@ -16,6 +16,8 @@
 
 namespace soft_tissue
 {
+struct SoftBodyModel;
+
 /** The scene itself. Building is in scene_build.cpp, its contacts in
  * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
  * scene_step.cpp, reading out in scene.cpp. */
@@ -50,13 +52,16 @@ class Scene::Impl
   std::vector<Tool, Eigen::aligned_allocator<Tool>> tools_;
 
  private:
-  /** What a tissue adds to the scene, and where its nodes stand among all. */
+  /** What a tissue or membrane adds to the scene, and where its nodes stand among all. */
   struct Tissue
   {
     Index first_node = 0;
     Index node_count = 0;
-    Adjacency neighbours;
-    std::unique_ptr<TetElasticity> elasticity;
+    Adjacency neighbours;  ///< nodes that elasticity couples
+    std::unique_ptr<EnergyTerm> elasticity;
+    TetElasticity* tets = nullptr;  ///< the elasticity of a tissue
+    double short_edge = 0.0;        ///< see TissueBody
+    double inner_radius = 0.0;      ///< see innerRadius(); 0: not known yet
   };
   /** Nodes that key frames move. */
   struct MovedNodes
@@ -75,8 +80,9 @@ class Scene::Impl
   };
   struct Contact
   {
-    std::size_t tissue = 0;
-    std::size_t other = 0;  ///< index of the tool, the obstacle, or the other tissue
+    std::size_t tissue = 0;  ///< or membrane
+    std::size_t other = 0;   ///< index of the tool, the obstacle, or the other tissue
+    std::unique_ptr<SurfacePoints> points;  ///< of a membrane too coarse for the other
     std::unique_ptr<ContactTerm> term;
     ToolContact* with_tool = nullptr;  ///< the term, as what it is
     TissueContact* with_tissue = nullptr;
@@ -99,20 +105,28 @@ class Scene::Impl
     Points x, v, acceleration;
   };
 
+  Tissue& addSoftBody(std::size_t index, SoftBodyModel& model);
   void addTissue(std::size_t index);
+  void addMembrane(std::size_t index);
   void addTool(std::size_t index);
   void addObstacle(std::size_t index);
   void addContact(std::size_t index);
   void makeSolver();
-  void addToolContact(const ContactConfig& config, ContactOptions options, Contact& contact);
-  void addTissueContact(const ContactConfig& config, ContactOptions options, Contact& contact);
-  void addObstacleContact(const ContactConfig& config, ContactOptions options, Contact& contact);
+  void addToolContact(const ContactConfig& config, Contact& contact);
+  void addTissueContact(const ContactConfig& config, Contact& contact);
+  void addObstacleContact(const ContactConfig& config, Contact& contact);
   void showObstacles();
   void refuseDeepStart(const Contact& contact);
+  std::string itemOf(std::size_t tissue) const;
+  double stiffnessAgainstRigid(const Contact& contact) const;
+  double innerRadiusOf(std::size_t tissue);
   TissueBody bodyOf(std::size_t tissue) const;
+  TissueBody surfaceFor(double size_m, const ContactConfig& config, Contact& contact) const;
+  FieldConfig fieldConfigOf(std::size_t tissue) const;
   std::unique_ptr<DistanceField> fieldOf(std::size_t tissue) const;
   void aimTools();
   int partsOfStep() const;
+  double motionOfTissue(std::size_t tissue, const Vec3& drift, Box3& reach) const;
   double motionOfTool(const Contact& contact) const;
   double motionOfTissues(const Contact& contact) const;
   double motionInObstacle(const Contact& contact) const;

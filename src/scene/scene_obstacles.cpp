@@ -30,23 +30,6 @@ void Scene::Impl::addObstacle(std::size_t index)
   obstacles_.push_back(std::move(obstacle));
 }
 
-void Scene::Impl::addObstacleContact(const ContactConfig& config, ContactOptions options,
-                                     Contact& contact)
-{
-  const auto found = std::find_if(config_.obstacles.begin(), config_.obstacles.end(),
-                                  [&](const auto& other) { return other.name == config.other; });
-  contact.other = found - config_.obstacles.begin();
-  const Obstacle& obstacle = obstacles_[contact.other];
-  contact.size_m = obstacle.shape->innerRadius();
-  const double young_modulus = config_.tissues[contact.tissue].material.young_modulus_pa;
-  options.stiffness_pa_per_m =
-      config.stiffness_pa_per_m.value_or(kAutoStiffness * young_modulus / contact.size_m);
-  auto term = std::make_unique<ObstacleContact>(bodyOf(contact.tissue), obstacle.shape,
-                                                obstacle.X_WO, options);
-  contact.with_obstacle = term.get();
-  contact.term = std::move(term);
-}
-
 /** @throws Error when the tissue of a pair starts inside its obstacle */
 void Scene::Impl::refuseDeepStart(const Contact& contact)
 {
@@ -71,16 +54,8 @@ void Scene::Impl::refuseDeepStart(const Contact& contact)
 /** How far the tissue of a pair moves in this step, m; 0 where its obstacle is out of reach. */
 double Scene::Impl::motionInObstacle(const Contact& contact) const
 {
-  const Tissue& tissue = tissues_[contact.tissue];
-  double squared = 0.0;
   Box3 reach;
-  for (Index i = tissue.first_node; i < tissue.first_node + tissue.node_count; ++i)
-  {
-    squared = std::max(squared, v_[i].squaredNorm());
-    reach.extend(x_[i]);
-  }
-  const double moved = config_.time_step_s * std::sqrt(squared);
-  reach.grow(moved);
+  const double moved = motionOfTissue(contact.tissue, Vec3::Zero(), reach);
   const Obstacle& obstacle = obstacles_[contact.other];
   return obstacle.shape->touches(transformed(obstacle.X_WO.inverse(), reach)) ? moved : 0.0;
 }

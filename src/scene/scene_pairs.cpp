@@ -12,87 +12,111 @@ namespace
 /** A tool may start touching, but not with more of its inner radius than this inside tissue. */
 constexpr double kDeepStart = 0.5;
 
-template <typename Configs>
-std::size_t find(const Configs& configs, const std::string& name)
+/** The most parts that contact cuts edges of a membrane into. */
+constexpr double kMostCuts = 64.0;
+
+template <typename Named>
+std::size_t find(const std::vector<Named>& all, const std::string& name)
 {
   const auto found =
-      std::find_if(configs.begin(), configs.end(), [&](const auto& c) { return c.name == name; });
-  return found - configs.begin();
+      std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+  return found - all.begin();
 }
 
-/** The length a tenth of a tissue's boundary edges fall short of, m. */
-double shortEdge(const TissueInfo& tissue)
+/** Whether nodal depths are marched anew in each step. */
+bool refreshes(const FieldConfig& field)
 {
-  std::vector<double> lengths;
-  for (const Edge& edge : tissue.surface.edges)
-  {
-    lengths.push_back((tissue.rest.nodes[edge[1]] - tissue.rest.nodes[edge[0]]).norm());
-  }
-  const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
-  std::nth_element(lengths.begin(), tenth, lengths.end());
-  return *tenth;
+  // Where the closest feature is searched for, features of any age start the search as well.
+  const bool lazy = field.refresh == FieldRefresh::lazy && field.depth == DepthKind::interpolated;
+  return lazy || field.refresh == FieldRefresh::full;
+}
+
+ContactOptions optionsOf(const ContactConfig& config, const FieldConfig& field,
+                         double auto_stiffness)
+{
+  ContactOptions options;
+  options.segments = config.response == Response::segment;
+  options.closest_feature = field.depth == DepthKind::closest_feature;
+  options.lazy_field = field.refresh == FieldRefresh::lazy;
+  options.stiffness_pa_per_m = config.stiffness_pa_per_m.value_or(auto_stiffness);
+  options.friction = config.friction;
+  return options;
 }
 }  // namespace
+
+std::string Scene::Impl::itemOf(std::size_t tissue) const
+{
+  const std::size_t tissues = config_.tissues.size();
+  return tissue < tissues ? item(config_, "tissues", tissue)
+                          : item(config_, "membranes", tissue - tissues);
+}
 
 void Scene::Impl::addContact(std::size_t index)
 {
   const ContactConfig& config = config_.contacts[index];
   Contact contact;
-  contact.tissue = find(config_.tissues, config.tissue);
-  const FieldConfig& field = config_.tissues[contact.tissue].field;
-  ContactOptions options;
-  options.segments = config.response == Response::segment;
-  options.closest_feature = field.depth == DepthKind::closest_feature;
-  options.lazy_field = field.refresh == FieldRefresh::lazy;
-  options.friction = config.friction;
-  // Where the closest feature is searched for, features of any age start the search as well.
-  const bool lazy_depths = options.lazy_field && !options.closest_feature;
-  contact.refresh = lazy_depths || field.refresh == FieldRefresh::full;
+  contact.tissue = find(tissue_info_, config.tissue);
   contact.max_penetration_m = config.max_penetration_m;
   if (find(config_.tools, config.other) < config_.tools.size())
   {
-    addToolContact(config, options, contact);
+    addToolContact(config, contact);
   }
   else if (find(config_.obstacles, config.other) < config_.obstacles.size())
   {
-    addObstacleContact(config, options, contact);
+    addObstacleContact(config, contact);
   }
   else
   {
-    addTissueContact(config, options, contact);
+    addTissueContact(config, contact);
   }
   contacts_.push_back(std::move(contact));
 }
 
-void Scene::Impl::addToolContact(const ContactConfig& config, ContactOptions options,
-                                 Contact& contact)
+void Scene::Impl::addToolContact(const ContactConfig& config, Contact& contact)
 {
   contact.other = find(config_.tools, config.other);
   const RigidBodyShape& shape = tools_[contact.other].shape;
   contact.size_m = shape.innerRadius();
-  const double young_modulus = config_.tissues[contact.tissue].material.young_modulus_pa;
-  options.stiffness_pa_per_m =
-      config.stiffness_pa_per_m.value_or(kAutoStiffness * young_modulus / contact.size_m);
-  auto term = std::make_unique<ToolContact>(bodyOf(contact.tissue), shape, fieldOf(contact.tissue),
-                                            options);
+  const FieldConfig field = fieldConfigOf(contact.tissue);
+  contact.refresh = refreshes(field);
+  auto term = std::make_unique<ToolContact>(
+      surfaceFor(contact.size_m, config, contact), shape, fieldOf(contact.tissue),
+      optionsOf(config, field, stiffnessAgainstRigid(contact)));
   contact.with_tool = term.get();
   contact.term = std::move(term);
 }
 
-void Scene::Impl::addTissueContact(const ContactConfig& config, ContactOptions options,
-                                   Contact& contact)
+void Scene::Impl::addObstacleContact(const ContactConfig& config, Contact& contact)
 {
-  contact.other = find(config_.tissues, config.other);
+  contact.other = find(config_.obstacles, config.other);
+  const Obstacle& obstacle = obstacles_[contact.other];
+  contact.size_m = obstacle.shape->innerRadius();
+  auto term = std::make_unique<ObstacleContact>(
+      surfaceFor(contact.size_m, config, contact), obstacle.shape, obstacle.X_WO,
+      optionsOf(config, fieldConfigOf(contact.tissue), stiffnessAgainstRigid(contact)));
+  contact.with_obstacle = term.get();
+  contact.term = std::move(term);
+}
+
+void Scene::Impl::addTissueContact(const ContactConfig& config, Contact& contact)
+{
+  contact.other = find(tissue_info_, config.other);
   const std::size_t first = contact.tissue, second = contact.other;
   contact.pair = pairs_.size();
   pairs_.push_back({static_cast<Index>(first), static_cast<Index>(second), {}});
-  contact.size_m = std::min(innerRadius(tissue_info_[first].rest, tissue_info_[first].surface),
-                            innerRadius(tissue_info_[second].rest, tissue_info_[second].surface));
-  const double young_modulus = std::min(config_.tissues[first].material.young_modulus_pa,
-                                        config_.tissues[second].material.young_modulus_pa);
-  options.stiffness_pa_per_m =
-      config.stiffness_pa_per_m.value_or(kAutoStiffness * young_modulus / contact.size_m);
-  TissueContact::Side a = {bodyOf(first), fieldOf(first)};
+  contact.size_m = innerRadiusOf(second);
+  double young_modulus = config_.softBody(second).material.young_modulus_pa;
+  if (!tissue_info_[first].isMembrane())
+  {
+    contact.size_m = std::min(contact.size_m, innerRadiusOf(first));
+    young_modulus = std::min(young_modulus, config_.softBody(first).material.young_modulus_pa);
+  }
+  const FieldConfig field = fieldConfigOf(tissue_info_[first].isMembrane() ? second : first);
+  contact.refresh = refreshes(field);
+  const ContactOptions options =
+      optionsOf(config, field, kAutoStiffness * young_modulus / contact.size_m);
+  TissueContact::Side a = {surfaceFor(tissues_[second].short_edge, config, contact),
+                           fieldOf(first)};
   auto term = first == second ? std::make_unique<TissueContact>(std::move(a), options)
                               : std::make_unique<TissueContact>(
                                     std::move(a),
@@ -101,23 +125,83 @@ void Scene::Impl::addTissueContact(const ContactConfig& config, ContactOptions o
   contact.term = std::move(term);
 }
 
+/** Of a tool or obstacle with a soft body, see kAutoStiffness. */
+double Scene::Impl::stiffnessAgainstRigid(const Contact& contact) const
+{
+  const std::size_t tissues = config_.tissues.size();
+  const double young_modulus = config_.softBody(contact.tissue).material.young_modulus_pa;
+  const double share =
+      contact.tissue < tissues
+          ? 1.0
+          : config_.membranes[contact.tissue - tissues].thickness_m / contact.size_m;
+  return kAutoStiffness * young_modulus * share / contact.size_m;
+}
+
+double Scene::Impl::innerRadiusOf(std::size_t tissue)
+{
+  double& radius = tissues_[tissue].inner_radius;
+  if (radius == 0.0)
+  {
+    radius = innerRadius(tissue_info_[tissue].rest, tissue_info_[tissue].surface);
+  }
+  return radius;
+}
+
 TissueBody Scene::Impl::bodyOf(std::size_t tissue) const
 {
   const TissueInfo& info = tissue_info_[tissue];
   TissueBody body;
-  body.tets = &info.rest.tets;
+  body.tets = info.isMembrane() ? nullptr : &info.rest.tets;
   body.surface = &info.surface;
   body.first_node = tissues_[tissue].first_node;
   body.node_count = tissues_[tissue].node_count;
-  body.short_edge = shortEdge(info);
+  body.short_edge = tissues_[tissue].short_edge;
   body.rest = &info.rest.nodes;
   return body;
 }
 
+/** The first body of a contact; a membrane is cut where its triangles are larger than the other
+ * body, which would pass between their edges. */
+TissueBody Scene::Impl::surfaceFor(double size_m, const ContactConfig& config,
+                                   Contact& contact) const
+{
+  TissueBody body = bodyOf(contact.tissue);
+  const TissueInfo& info = tissue_info_[contact.tissue];
+  if (!info.isMembrane())
+  {
+    return body;
+  }
+  const double longest = longestEdge(info);
+  if (longest > kMostCuts * size_m)
+  {
+    throw Error(itemOf(contact.tissue) + " '" + info.name + "' has edges of " +
+                std::to_string(1e3 * longest) + " mm, must be at most " +
+                std::to_string(1e3 * kMostCuts * size_m) + " mm for contact with '" + config.other +
+                "'");
+  }
+  if (longest > size_m)
+  {
+    contact.points = std::make_unique<SurfacePoints>(
+        cutSurface({info.rest.nodes, info.surface.triangles}, size_m));
+    body.points = contact.points.get();
+    body.surface = &contact.points->surface;
+    body.short_edge = std::min(body.short_edge, size_m);
+  }
+  return body;
+}
+
+FieldConfig Scene::Impl::fieldConfigOf(std::size_t tissue) const
+{
+  return tissue < config_.tissues.size() ? config_.tissues[tissue].field : FieldConfig();
+}
+
+/** Null for a membrane. */
 std::unique_ptr<DistanceField> Scene::Impl::fieldOf(std::size_t tissue) const
 {
-  return makeDistanceField(config_.tissues[tissue].field,
-                           {&tissue_info_[tissue].surface, &tissues_[tissue].neighbours});
+  return tissue_info_[tissue].isMembrane()
+             ? nullptr
+             : makeDistanceField(config_.tissues[tissue].field,
+                                 {&tissue_info_[tissue].surface, &tissues_[tissue].neighbours});
 }
 
 void Scene::Impl::refuseDeepStart()
@@ -139,7 +223,7 @@ void Scene::Impl::refuseDeepStart()
     {
       throw Error(item(config_, "tools", contact.other) + " '" + config_.tools[contact.other].name +
                   "' starts " + std::to_string(1e3 * deepest) + " mm deep inside tissue '" +
-                  config_.tissues[contact.tissue].name +
+                  tissue_info_[contact.tissue].name +
                   "', must start outside it: set initial_pose or the first key frame");
     }
   }

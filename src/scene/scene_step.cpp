@@ -228,10 +228,13 @@ void Scene::Impl::finishStep()
   }
   collectContacts();
   const Timer timer;
-  report_.min_det_f = tissues_.empty() ? 1.0 : 1e300;
+  report_.min_det_f = config_.tissues.empty() ? 1.0 : 1e300;
   for (const Tissue& tissue : tissues_)
   {
-    report_.min_det_f = std::min(report_.min_det_f, tissue.elasticity->minDetF(x_));
+    if (tissue.tets != nullptr)
+    {
+      report_.min_det_f = std::min(report_.min_det_f, tissue.tets->minDetF(x_));
+    }
   }
   report_.ms.fem += 1e3 * timer.seconds();
   for (const Contact& contact : contacts_)

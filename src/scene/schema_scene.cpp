@@ -57,7 +57,8 @@ const Section<ContactConfig>& contactSection()
   static const Section<ContactConfig> section =
       Section<ContactConfig>("contact", "A pair that may touch; pairs not named pass through.")
           .required("between", setPair, namePair(),
-                    "Who touches whom; each pair once. A tissue named twice touches itself.")
+                    "Who touches whom; each pair once. A tissue named twice touches itself. Two "
+                    "membranes, tools or obstacles pass through each other.")
           .optional("response", &ContactConfig::response,
                     choice<Response>({{"point", Response::point}, {"segment", Response::segment}},
                                      {"auto"}),
@@ -68,8 +69,9 @@ const Section<ContactConfig>& contactSection()
                     "Contact pressure per depth; auto: " + shortest(kAutoStiffness) +
                         " E / R, E being the tissue's Young's modulus and R the radius of the "
                         "largest ball inside the tool, half a cell of an obstacle; of two tissues, "
-                        "E of the softer one and the "
-                        "smaller R.")
+                        "E of the softer one and the smaller R, of a tissue and a membrane the "
+                        "tissue's; of a membrane E t / R^2 in place of E / R, t being its "
+                        "thickness.")
           .optional(
               "friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
               "Coulomb coefficient; what it holds gives way by less than 0.1 mm/s times the step.")
@@ -90,8 +92,10 @@ const Section<SceneConfig>& sceneSection()
           .optional("materials", &SceneConfig::materials, file(),
                     "Materials file the presets are looked up in.")
           .optional("solver", &SceneConfig::solver, mapOf(solverSection()), "How a step is solved.")
-          .required("tissues", &SceneConfig::tissues, listOf(mapOf(tissueSection()), 1),
-                    "Soft bodies.")
+          .optional("tissues", &SceneConfig::tissues, listOf(mapOf(tissueSection())),
+                    "Soft bodies; a scene has at least one, or a membrane.")
+          .optional("membranes", &SceneConfig::membranes, listOf(mapOf(membraneSection())),
+                    "Thin soft bodies, that touch tissues, tools and obstacles from both sides.")
           .optional("tools", &SceneConfig::tools, listOf(mapOf(toolSection())), "Rigid tools.")
           .optional("obstacles", &SceneConfig::obstacles, listOf(mapOf(obstacleSection())),
                     "What stands still in the world.")
@@ -99,7 +103,6 @@ const Section<SceneConfig>& sceneSection()
                     "Pairs that may touch.")
           .optional("outputs", &SceneConfig::outputs, mapOf(outputsSection()),
                     "What is computed only to be looked at.")
-          .notAvailable("membranes", "Thin soft bodies.")
           .finally(checkScene);
   return section;
 }

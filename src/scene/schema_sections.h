@@ -35,6 +35,7 @@ struct ToolShapeConfig
 
 const Section<SceneConfig>& sceneSection();
 const Section<TissueConfig>& tissueSection();
+const Section<MembraneConfig>& membraneSection();
 const Section<ToolConfig>& toolSection();
 const Section<ToolShapeConfig>& toolShapeSection();
 const Section<ObstacleConfig>& obstacleSection();

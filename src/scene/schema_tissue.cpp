@@ -8,9 +8,10 @@ namespace
 const Section<MeshConfig>& meshSection()
 {
   static const Section<MeshConfig> section =
-      Section<MeshConfig>("mesh", "A tetrahedral mesh file.")
+      Section<MeshConfig>("mesh", "A tetrahedral mesh file, or one of triangles for a membrane.")
           .required("file", &MeshConfig::file, file(),
-                    "Gmsh, VTK, TetGen, Medit or PLY. Relative paths start at the scene file.")
+                    "Gmsh, VTK, TetGen, Medit or PLY; of triangles STL, OBJ, PLY or VTK. Relative "
+                    "paths start at the scene file.")
           .required("length_unit", &MeshConfig::metres_per_unit, lengthUnit(),
                     "Unit of the coordinates in the file.");
   return section;
@@ -119,31 +120,67 @@ void checkRegions(const Item& item, TissueConfig& tissue)
   }
 }
 
+/** Keys that tissues and membranes share, up to the material. */
+template <typename Body>
+Section<Body>& addPlace(Section<Body>& section, const std::string& mesh)
+{
+  return section
+      .required("name", &Body::name, name(),
+                "Its ROS namespace; unlike that of any other body or tool, and not tissue_pairs.")
+      .required("mesh", &Body::mesh, mapOf(meshSection()), mesh)
+      .optional("pose", &Body::pose, mapOf(poseSection()),
+                "Where the mesh file's frame stands in the world at rest.")
+      .optional("velocity_m_per_s", &Body::velocity_m_per_s, vectorOfNorm(1000.0),
+                "What all of it but its fixed nodes moves with at first, in the world frame.")
+      .required("material", &Body::material, material(), "What it is made of.");
+}
+
+/** And the rest. */
+template <typename Body>
+Section<Body>& addHolds(Section<Body>& section)
+{
+  return section.optional("fixed", &Body::fixed, listOf(mapOf(fixedSection())), "Where it is held.")
+      .optional("keyframes", &Body::keyframes, listOf(mapOf(nodeMotionSection())),
+                "Where it is held and moved.");
+}
 }  // namespace
 
 const Section<TissueConfig>& tissueSection()
 {
-  static const Section<TissueConfig> section =
-      Section<TissueConfig>("tissue", "A soft body.")
-          .required(
-              "name", &TissueConfig::name, name(),
-              "Its ROS namespace; unlike that of any other tissue or tool, and not tissue_pairs.")
-          .required("mesh", &TissueConfig::mesh, mapOf(meshSection()), "Its rest shape.")
-          .optional("pose", &TissueConfig::pose, mapOf(poseSection()),
-                    "Where the mesh file's frame stands in the world at rest.")
-          .optional("velocity_m_per_s", &TissueConfig::velocity_m_per_s, vectorOfNorm(1000.0),
-                    "What all of it but its fixed nodes moves with at first, in the world frame.")
-          .required("material", &TissueConfig::material, material(), "What it is made of.")
-          .optional("regions", &TissueConfig::regions, listOf(mapOf(regionSection())),
-                    "Parts of other stiffness or density; each tag once.")
-          .optional("fixed", &TissueConfig::fixed, listOf(mapOf(fixedSection())),
-                    "Where it is held.")
-          .optional("keyframes", &TissueConfig::keyframes, listOf(mapOf(nodeMotionSection())),
-                    "Where it is held and moved.")
-          .optional("field", &TissueConfig::field, mapOf(fieldSection()),
-                    "Its distance field; marched only if the tissue has a contact.")
-          .notAvailable("element", "Quadratic and locking-free elements.")
-          .finally(checkRegions);
+  static const Section<TissueConfig> section = [] {
+    Section<TissueConfig> keys("tissue", "A soft body.");
+    addPlace(keys, "Its rest shape.");
+    keys.optional("regions", &TissueConfig::regions, listOf(mapOf(regionSection())),
+                  "Parts of other stiffness or density; each tag once.");
+    addHolds(keys);
+    keys.optional("field", &TissueConfig::field, mapOf(fieldSection()),
+                  "Its distance field; marched only if the tissue has a contact.")
+        .notAvailable("element", "Quadratic and locking-free elements.")
+        .finally(checkRegions);
+    return keys;
+  }();
+  return section;
+}
+
+const Section<MembraneConfig>& membraneSection()
+{
+  static const Section<MembraneConfig> section = [] {
+    Section<MembraneConfig> keys(
+        "membrane", "A thin soft body, stress-free as it is in its mesh file, flat or curved.");
+    addPlace(keys, "Its rest shape: triangles half way through its thickness.");
+    keys.required("thickness_m", &MembraneConfig::thickness_m, number(0.0, 0.1, Ends::open_below),
+                  "What it weighs, stretches and bends by; contact is with the middle of it.");
+    addHolds(keys);
+    keys.finally([](const Item& item, MembraneConfig&) {
+      if (item.at("material").has("model"))
+      {
+        item.at("material")
+            .at("model")
+            .rejectValue("is for tissues, a membrane has a law of its own");
+      }
+    });
+    return keys;
+  }();
   return section;
 }
 

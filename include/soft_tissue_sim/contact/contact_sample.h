@@ -13,7 +13,7 @@ namespace soft_tissue
  * end as samples: energy 1/2 kappa area d^2, and d's derivative by node j is coefficient[j] *
  * gradient. The two directions are averaged by halving the area of each: areas of one direction add
  * up to half of the touching surface, and energies and forces are plain sums over all samples.
- * Where only one direction is taken, against an obstacle, its areas count whole.
+ * Where only one direction is taken, as against an obstacle, its areas count whole.
  *
  * The force is kappa area depth. Where an edge is clipped at a surface, the quadrature points move
  * with that surface; the derivative of that is one more sample at the clip point, with a force
@@ -21,7 +21,7 @@ namespace soft_tissue
  */
 struct ContactSample
 {
-  static constexpr int kMaxNodes = 6;  ///< an edge's two nodes and a tet's four
+  static constexpr int kMaxNodes = 7;  ///< a triangle's three nodes and a tet's four
 
   Vec3 position = Vec3::Zero();         ///< m, world
   Vec3 gradient = Vec3::Zero();         ///< of d by the intruding point; unit for a true distance

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/contact/tissue_body.h"
 #include "soft_tissue_sim/energy/term.h"
 
 namespace soft_tissue
@@ -27,13 +28,6 @@ struct ContactTimes
   double field = 0.0;
   double detect = 0.0;
   double respond = 0.0;
-};
-
-/** Rows of one body's nodes among the positions of the whole scene. */
-struct NodeRange
-{
-  Index first = 0;
-  Index count = 0;
 };
 
 /**
@@ -76,8 +70,8 @@ class ContactTerm : public EnergyTerm
   ContactTimes takeTimes();
 
  protected:
-  /** @param ranges  the nodes of the bodies that can deform, body by body */
-  ContactTerm(const ContactOptions& options, const std::vector<NodeRange>& ranges);
+  /** @param bodies  those that can deform */
+  ContactTerm(const ContactOptions& options, const std::vector<TissueBody>& bodies);
 
   /** Finds the samples where the bodies are now. */
   virtual void collect(std::vector<ContactSample>& samples) = 0;
@@ -90,16 +84,20 @@ class ContactTerm : public EnergyTerm
   const ContactOptions& options() const { return options_; }
   Friction& friction() { return *friction_; }
   ContactTimes& times() { return times_; }
-  /** Positions of body k alone, m, where samples were or are being taken. */
-  const Points& body(std::size_t k) const { return bodies_[k]; }
+  /** Positions of what body k's surface numbers, m, where samples were or are being taken. */
+  const Points& body(std::size_t k) const
+  {
+    return bodies_[k].points == nullptr ? nodes_[k] : points_[k];
+  }
   void takeBodies(const Points& x);
   bool haveSamplesAt(const Points& x) const;
   void forgetSamples();
 
  private:
   ContactOptions options_;
-  std::vector<NodeRange> ranges_;
-  std::vector<Points> bodies_;
+  std::vector<TissueBody> bodies_;
+  std::vector<Points> nodes_;   ///< of each body
+  std::vector<Points> points_;  ///< of those that have TissueBody::points
   std::unique_ptr<Friction> friction_;
   double stiffening_ = 1.0;
   bool have_samples_ = false;

@@ -10,7 +10,8 @@
 namespace soft_tissue
 {
 /**
- * Contact of two tissues, or of one with itself: the surface of each in the depth of the other.
+ * Contact of two tissues, or of one with itself: the surface of each in the depth of the other. A
+ * membrane, which has no depth, can only be the first of two: its surface counts whole.
  *
  * Of one body, an element of the surface can't be in tets that it shares a node with. Forces and
  * moments of both sum to zero, those of friction up to how far things slide in a step.
@@ -18,13 +19,14 @@ namespace soft_tissue
 class TissueContact : public ContactTerm
 {
  public:
-  /** A tissue and its field, for this contact alone. */
+  /** A tissue and its field, for this contact alone; a membrane has none. */
   struct Side
   {
     TissueBody body;
     std::unique_ptr<DistanceField> field;
   };
 
+  /** @throws Error if the second is a membrane */
   TissueContact(Side first, Side second, const ContactOptions& options);
   /** Of a body with itself; @throws Error unless it has TissueBody::rest */
   TissueContact(Side self, const ContactOptions& options);

@@ -11,7 +11,7 @@ namespace soft_tissue
 {
 /**
  * Contact of one rigid tool, the first of the pair, with one tissue: tool surface in the tissue's
- * depth, and tissue surface in the tool's exact distance.
+ * depth, and tissue surface in the tool's exact distance. With a membrane it is the latter alone.
  *
  * beginStep() lags what the minimisation holds fixed: tool pose, candidate elements, surface areas,
  * nodal depths, and where and how hard friction acts.
@@ -19,6 +19,7 @@ namespace soft_tissue
 class ToolContact : public ContactTerm
 {
  public:
+  /** @param field  of the tissue, for this contact alone; null for a membrane */
   ToolContact(const TissueBody& tissue, const RigidBodyShape& tool,
               std::unique_ptr<DistanceField> field, const ContactOptions& options);
   ~ToolContact() override;
@@ -35,7 +36,7 @@ class ToolContact : public ContactTerm
 
   bool active() const override;
 
-  /** Nodal depths of the last field; all NaN before the first. */
+  /** Nodal depths of the last field; all NaN before the first; none of a membrane. */
   const std::vector<double>& depth() const;
 
  private:

@@ -50,6 +50,17 @@ inline Box3 boundsOf(const Points& points)
   return box;
 }
 
+/** Of some of them, by number. */
+inline Box3 boundsOf(const Points& points, const std::vector<Index>& which)
+{
+  Box3 box;
+  for (const Index i : which)
+  {
+    box.extend(points[i]);
+  }
+  return box;
+}
+
 /** The box around a moved one, which is then no longer along the axes. */
 inline Box3 transformed(const Pose& X, const Box3& box)
 {

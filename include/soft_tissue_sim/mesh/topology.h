@@ -43,6 +43,10 @@ struct BoundarySurface
 
 BoundarySurface extractBoundary(Index node_count, const std::vector<Tet>& tets);
 
+/** Triangles, open or closed, as a surface of their own: all of BoundarySurface but triangle_tet.
+ */
+BoundarySurface surfaceOf(Index node_count, const std::vector<Triangle>& triangles);
+
 /**
  * The boundary of a mesh of triangles in a plane: edges that belong to exactly one of them, each as
  * a triangle whose last two corners are one. What measures distances to triangles then does the

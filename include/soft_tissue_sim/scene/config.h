@@ -88,17 +88,29 @@ struct FieldConfig
   FieldRefresh refresh = FieldRefresh::lazy;
 };
 
-struct TissueConfig
+/** What tissues and membranes have in common. */
+struct SoftBodyConfig
 {
   std::string name;
   MeshConfig mesh;
   PoseConfig pose;
   Vec3 velocity_m_per_s = Vec3::Zero();  ///< it starts with, world
   MaterialConfig material;
-  std::vector<RegionConfig> regions;
   std::vector<BoxConfig> fixed;
   std::vector<NodeMotionConfig> keyframes;
+};
+
+/** A soft body of tets. */
+struct TissueConfig : SoftBodyConfig
+{
+  std::vector<RegionConfig> regions;
   FieldConfig field;
+};
+
+/** A thin soft body of triangles; of its material the model does not count. */
+struct MembraneConfig : SoftBodyConfig
+{
+  double thickness_m = 0.0;
 };
 
 struct SphereShape
@@ -186,13 +198,14 @@ enum class Response
 
 /** Contact stiffness that a scene leaves to us, in the tissue's Young's modulus over the tool's
  * inner radius, half a cell of an obstacle; of two tissues the softer one's modulus and the smaller
- * inner radius. */
+ * inner radius, of a tissue and a membrane the tissue's; of a membrane and a tool or obstacle its
+ * modulus times thickness over the square of that radius. */
 constexpr double kAutoStiffness = 20.0;
 
 struct ContactConfig
 {
-  std::string tissue;
-  std::string other;  ///< tool, obstacle, another tissue, or the same, which then touches itself
+  std::string tissue;  ///< or membrane
+  std::string other;   ///< tool, obstacle, another tissue, or the same, which then touches itself
   Response response = Response::segment;
   std::optional<double> stiffness_pa_per_m;  ///< empty: kAutoStiffness
   double friction = 0.0;                     ///< Coulomb coefficient
@@ -230,10 +243,18 @@ struct SceneConfig
   Vec3 gravity_m_per_s2 = Vec3(0.0, 0.0, -9.81);
   SolverConfig solver;
   std::vector<TissueConfig> tissues;
+  std::vector<MembraneConfig> membranes;
   std::vector<ToolConfig> tools;
   std::vector<ObstacleConfig> obstacles;
   std::vector<ContactConfig> contacts;
   OutputsConfig outputs;
+
+  /** Tissues, and after them membranes, as Scene numbers them. */
+  const SoftBodyConfig& softBody(std::size_t index) const
+  {
+    return index < tissues.size() ? static_cast<const SoftBodyConfig&>(tissues[index])
+                                  : membranes[index - tissues.size()];
+  }
 };
 
 /** Folder of a package, or empty when there is none; the node layer gives one that asks rospack. */

@@ -69,12 +69,15 @@ struct Wrench
   Vec3 torque = Vec3::Zero();  ///< N m
 };
 
-/** Everything of one tissue that does not change while it deforms. */
+/** Everything of one tissue or membrane that does not change while it deforms. */
 struct TissueInfo
 {
   std::string name;
-  TetMesh rest;  ///< rest state, world frame
+  TetMesh rest;  ///< rest state, world frame; a membrane has nodes but no tets
   BoundarySurface surface;
+
+  bool isMembrane() const { return rest.tets.empty(); }
+
   std::vector<Index> fixed_nodes;
   std::vector<std::string> remarks;  ///< what reading the mesh turned, left out or found odd
 };
@@ -93,10 +96,10 @@ struct ToolState
   std::vector<ContactPoint> contacts;
 };
 
-/** Contact of two tissues, or of one with itself. */
+/** Contact of two tissues, of a membrane with a tissue, or of a tissue with itself. */
 struct TissuePairState
 {
-  Index first = -1, second = -1;       ///< indices of the tissues
+  Index first = -1, second = -1;       ///< indices of the tissues; a membrane is the first
   std::vector<ContactPoint> contacts;  ///< forces are those on the first
 };
 
@@ -126,7 +129,7 @@ struct Snapshot
 {
   StepReport report;
   std::uint64_t state_hash = 0;
-  std::vector<TissueState> tissues;
+  std::vector<TissueState> tissues;  ///< and membranes after them
   std::vector<ToolState> tools;
   std::vector<ObstacleState> obstacles;
   std::vector<TissuePairState> tissue_pairs;  ///< as the scene file names them
@@ -147,6 +150,7 @@ class Scene
   Scene& operator=(Scene&&) noexcept;
 
   const SceneConfig& config() const;
+  /** Tissues, and after them membranes. */
   const std::vector<TissueInfo>& tissues() const;
   const std::vector<ToolInfo>& tools() const;
   /** Their surfaces grow in steps that take tissue to new places. */
