@@ -66,7 +66,8 @@ void orderPair(const Item& between, const SceneConfig& scene, ContactConfig& con
   }
   if (isRigid(scene, contact.tissue))
   {
-    between.rejectValue("must have a tissue or a membrane; tools and obstacles don't touch");
+    between.rejectValue(
+        "must have a tissue or a membrane; tools and obstacles don't touch each other");
   }
   if (hasName(scene.membranes, contact.other))
   {

@@ -8,9 +8,9 @@ namespace soft_tissue
 {
 namespace
 {
-/** How far two bodies may move past each other in one part of a step, in Contact::size_m; and the
- * most parts. */
-constexpr double kMostMotion = 1.0;
+/** How far two bodies may move past each other in one part of a step, in Contact::size_m. A
+ * membrane must not get as far as the middle of the other, where it finds either way out. */
+constexpr double kMostMotion = 1.0, kMostMotionOfMembranes = 0.5;
 constexpr double kMostParts = 64.0;
 
 // Where contact is too deep it is made stiffer, in proportion and a little more, and balance is
@@ -74,9 +74,15 @@ int Scene::Impl::partsOfStep() const
     const double moved = contact.with_tool != nullptr       ? motionOfTool(contact)
                          : contact.with_obstacle != nullptr ? motionInObstacle(contact)
                                                             : motionOfTissues(contact);
-    parts = std::max(parts, moved / (kMostMotion * contact.size_m));
+    parts = std::max(parts, moved / mostMotion(contact));
   }
   return static_cast<int>(std::ceil(std::min(parts, kMostParts)));
+}
+
+double Scene::Impl::mostMotion(const Contact& contact) const
+{
+  const bool thin = tissue_info_[contact.tissue].isMembrane();
+  return (thin ? kMostMotionOfMembranes : kMostMotion) * contact.size_m;
 }
 
 /** How far a tissue may move in this step past what drifts, m, and the box it stays in. */
@@ -98,7 +104,7 @@ double Scene::Impl::motionOfTool(const Contact& contact) const
   Box3 tissue;
   const double own = motionOfTissue(contact.tissue, Vec3::Zero(), tissue);
   const double moved = farthestMotion(tool.shape.bounds(), tool.X_WT, tool.X_WT_goal) + own;
-  if (!(moved > kMostMotion * contact.size_m))
+  if (!(moved > mostMotion(contact)))
   {
     return 0.0;
   }
@@ -123,7 +129,7 @@ double Scene::Impl::motionOfTissues(const Contact& contact) const
   Box3 box_a, box_b;
   const double moved =
       motionOfTissue(contact.tissue, drift, box_a) + motionOfTissue(contact.other, drift, box_b);
-  return moved > kMostMotion * contact.size_m && box_a.overlaps(box_b) ? moved : 0.0;
+  return moved > mostMotion(contact) && box_a.overlaps(box_b) ? moved : 0.0;
 }
 
 /** Contacts take the state that the part [from, to] of the step starts with; those that can touch

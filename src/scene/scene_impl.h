@@ -126,6 +126,7 @@ class Scene::Impl
   std::unique_ptr<DistanceField> fieldOf(std::size_t tissue) const;
   void aimTools();
   int partsOfStep() const;
+  double mostMotion(const Contact& contact) const;
   double motionOfTissue(std::size_t tissue, const Vec3& drift, Box3& reach) const;
   double motionOfTool(const Contact& contact) const;
   double motionOfTissues(const Contact& contact) const;

@@ -100,9 +100,9 @@ Kind<std::pair<std::string, std::string>> namePair()
 {
   Kind<std::pair<std::string, std::string>> kind;
   kind.type = "list of 2 names";
-  kind.allowed = "a tissue and a tool or tissue, in any order";
+  kind.allowed = "a soft body and what it touches, in any order";
   kind.read = [word = name()](const Item& item) {
-    checkLength(item, 2, "2 names: a tissue and a tool or tissue");
+    checkLength(item, 2, "2 names: a soft body and what it touches");
     return std::make_pair(word.read(item.at(0)), word.read(item.at(1)));
   };
   kind.show = [](const std::pair<std::string, std::string>& names) {

@@ -8,7 +8,7 @@ namespace soft_tissue::test
 {
 namespace
 {
-constexpr double kSide = 0.1, kRadius = 0.01;
+constexpr double kSide = 0.1, kRadius = 0.01, kDeepest = 0.0005;
 
 /** A sheet of rubber, 1 mm thick, held at all its sides; `cells` along each. */
 SceneConfig heldSheet(const ScratchFolder& folder, int cells)
@@ -37,10 +37,10 @@ SceneConfig heldSheet(const ScratchFolder& folder, int cells)
 }
 
 /** A soft ball above the sheet. */
-TissueConfig& addBall(const ScratchFolder& folder, SceneConfig& config, double height, int cells)
+TissueConfig& addBall(const ScratchFolder& folder, SceneConfig& config, double height)
 {
   TissueConfig& ball =
-      addTissue(config, "ball", saved(folder, "ball.msh", makeBall(kRadius, cells)), Vec3::Zero());
+      addTissue(config, "ball", saved(folder, "ball.msh", makeBall(kRadius, 1000)), Vec3::Zero());
   ball.pose.position_m = Vec3(0.004, -0.003, height);
   ball.material = {MaterialModel::neo_hookean, 2e4, 0.4, 1000.0};
   return ball;
@@ -66,16 +66,17 @@ TEST(MembraneContact, ThrownBallIsCaught)
     {
       const ScratchFolder folder;
       SceneConfig config = heldSheet(folder, cells);
-      addBall(folder, config, 0.03, 4).velocity_m_per_s = Vec3(0.0, 0.0, -2.0);
+      addBall(folder, config, 0.03).velocity_m_per_s = Vec3(0.0, 0.0, -2.0);
       addPair(config, "sheet", "ball", response);
       Scene scene(config);
       Snapshot state;
-      double lowest = 1.0, back = 0.0;
+      double lowest = 1.0, back = 0.0, deepest = 0.0;
       int held = 0;
       for (int step = 0; step < 60; ++step)
       {
         held += scene.step().held ? 1 : 0;
         scene.fillSnapshot(state);
+        deepest = std::max(deepest, state.report.max_penetration_m);
         for (const Vec3& p : state.tissues[0].positions)
         {
           lowest = std::min(lowest, p.z());
@@ -95,7 +96,7 @@ TEST(MembraneContact, ThrownBallIsCaught)
       std::printf(
           "  %d cells, %s: ball got down to %.1f mm, goes at %.2f m/s; deepest %.3f mm; %d held\n",
           cells, response == Response::point ? "points" : "segments", 1e3 * lowest, back,
-          1e3 * state.report.max_penetration_m, held);
+          1e3 * deepest, held);
       EXPECT_GT(centre.z(), 0.0);
       EXPECT_GT(back, 0.0);
       EXPECT_EQ(held, 0);
@@ -103,6 +104,7 @@ TEST(MembraneContact, ThrownBallIsCaught)
   }
 }
 
+// Triangles of 33 mm don't give way around a ball of 3 mm: it takes 13 N to pull them down.
 TEST(MembraneContact, RigidBallAtTwoMetresPerSecondIsCaught)
 {
   for (const int cells : {3, 24})
@@ -114,6 +116,7 @@ TEST(MembraneContact, RigidBallAtTwoMetresPerSecondIsCaught)
     addTool(config, SphereShape{0.003}, start, Response::segment);
     config.contacts.back().tissue = "sheet";
     config.contacts.back().stiffness_pa_per_m.reset();
+    config.contacts.back().max_penetration_m = kDeepest;
     Scene scene(config);
     Snapshot state;
     Pose X_WT = start.toPose();
@@ -128,8 +131,8 @@ TEST(MembraneContact, RigidBallAtTwoMetresPerSecondIsCaught)
     std::printf("  %d cells: %.3f N on the ball, %.3f mm deep, %d held\n", cells,
                 state.tools[0].wrench_W.force.z(), 1e3 * state.report.max_penetration_m, held);
     EXPECT_EQ(held, 0);
-    EXPECT_GT(state.tools[0].wrench_W.force.z(), 0.05);
-    EXPECT_LT(state.report.max_penetration_m, 0.0015);
+    EXPECT_GT(state.tools[0].wrench_W.force.z(), 1.0);
+    EXPECT_LE(state.report.max_penetration_m, kDeepest);
   }
 }
 
@@ -143,7 +146,7 @@ TEST(MembraneContact, BallInASheetIsCarried)
     config.gravity_m_per_s2 = Vec3(0.0, 0.0, -9.81);
     config.time_step_s = 0.02;
     config.solver.tolerance = 1e-6;
-    addBall(folder, config, 0.0102, 4);
+    addBall(folder, config, 0.0102);
     addPair(config, "sheet", "ball", response);
     Scene scene(config);
     for (int step = 0; step < 150; ++step)

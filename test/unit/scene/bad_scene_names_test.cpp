@@ -28,8 +28,8 @@ std::vector<BadScene> badNames()
       {"contacts:",
        "obstacles: [{name: table, octomap: {file: mesh.msh}}]\ncontacts:\n"
        "  - {between: [table, hook]}",
-       "contacts[0].between = [table, hook], must have a tissue; tools and obstacles don't touch "
-       "each other"},
+       "contacts[0].between = [table, hook], must have a tissue or a membrane; tools and "
+       "obstacles don't touch each other"},
       {"outputs:", "obstacles: [{name: table}]\noutputs:",
        "obstacles[0].octomap: missing, must be a map"},
       {"outputs:", "obstacles: [{name: table, octomap: {file: mesh.msh, depth: 17}}]\noutputs:",
@@ -45,18 +45,20 @@ std::vector<BadScene> badNames()
        "tools[1].name = tissue_pairs, is what markers of contacts are called, must be another "
        "name"},
       {"[liver, probe]", "[lever, probe]",
-       "contacts[0].between = [lever, probe], there is no tissue, tool or obstacle 'lever'"},
+       "contacts[0].between = [lever, probe], there is no tissue, membrane, tool or obstacle "
+       "'lever'"},
       {"[liver, probe]", "[liver, proof]",
-       "contacts[0].between = [liver, proof], there is no tissue, tool or obstacle 'proof'"},
+       "contacts[0].between = [liver, proof], there is no tissue, membrane, tool or obstacle "
+       "'proof'"},
       {"[liver, probe]", "[hook, probe]",
-       "contacts[0].between = [hook, probe], must have a tissue; tools and obstacles don't touch "
-       "each other"},
+       "contacts[0].between = [hook, probe], must have a tissue or a membrane; tools and "
+       "obstacles don't touch each other"},
       {"[liver, probe]", "liver",
-       "contacts[0].between = liver, must be a list of 2 names: a tissue and a tool or "
-       "tissue"},
+       "contacts[0].between = liver, must be a list of 2 names: a soft body and "
+       "what it touches"},
       {"[liver, probe]", "[liver, probe, hook]",
-       "contacts[0].between = [liver, probe, hook], must be a list of 2 names: a tissue and a "
-       "tool or tissue"},
+       "contacts[0].between = [liver, probe, hook], must be a list of 2 names: a soft "
+       "body and what it touches"},
       {"outputs:", "  - between: [kidney, liver]\n  - between: [liver, kidney]\noutputs:",
        "contacts[2].between = [liver, kidney], is the pair of contacts[1] too, must be new"},
       {"outputs:", "  - between: [probe, liver]\noutputs:",
@@ -137,10 +139,38 @@ std::vector<BadScene> badFiles()
 
 #define NOT_AVAILABLE "not available in version 0.1; see docs/limits.md"
 
+#define SKIN                                                          \
+  "membranes: [{name: skin, mesh: {file: mesh.msh, length_unit: m}, " \
+  "material: {young_modulus_pa: 1e6, poisson_ratio: 0.4, density_kg_per_m3: 1000"
+
+std::vector<BadScene> badMembranes()
+{
+  return {
+      {"outputs:", "membranes: [{name: skin}]\noutputs:",
+       "membranes[0].mesh: missing, must be a map"},
+      {"outputs:", SKIN "}}]\noutputs:",
+       "membranes[0].thickness_m: missing, must be a number in (0, 0.1]"},
+      {"outputs:", SKIN "}, thickness_m: 0.2}]\noutputs:",
+       "membranes[0].thickness_m = 0.2, must be in (0, 0.1]"},
+      {"outputs:", SKIN ", model: corotated}, thickness_m: 0.001}]\noutputs:",
+       "membranes[0].material.model = corotated, is for tissues, a membrane has a law of its own"},
+      {"outputs:", SKIN "}, thickness_m: 0.001, field: {method: cffm}}]\noutputs:",
+       "membranes[0].field: unknown key, did you mean 'fixed'? Known: name, mesh, pose, "
+       "velocity_m_per_s, material, "
+       "thickness_m, fixed, keyframes"},
+      {"contacts:", SKIN "}, thickness_m: 0.001}]\ncontacts:\n  - {between: [skin, skin]}",
+       "contacts[0].between = [skin, skin], must have a tissue, tool or obstacle; membranes don't "
+       "touch each other"},
+      {"outputs:",
+       "membranes: [{name: kidney, mesh: {file: mesh.msh, length_unit: m}, material: "
+       "{preset: liver}, thickness_m: 0.001}]\noutputs:",
+       "membranes[0].name = kidney, is tissues[1].name too, must be new"},
+  };
+}
+
 std::vector<BadScene> notAvailable()
 {
   return {
-      {"outputs:", "membranes: [{name: skin}]\noutputs:", "membranes: " NOT_AVAILABLE},
       {"outputs:", "obstacles: [{name: table, octomap: {topic: octomap_in}}]\noutputs:",
        "obstacles[0].octomap.topic: " NOT_AVAILABLE},
       {"    field: {method: cffm}", "    element: tet10", "tissues[0].element: " NOT_AVAILABLE},
@@ -175,6 +205,7 @@ TEST_P(BadSceneNamesTest, IsAnsweredWithFileKeyValueAndWhatIsAllowed)
 
 INSTANTIATE_TEST_SUITE_P(Names, BadSceneNamesTest, testing::ValuesIn(badNames()));
 INSTANTIATE_TEST_SUITE_P(Files, BadSceneNamesTest, testing::ValuesIn(badFiles()));
+INSTANTIATE_TEST_SUITE_P(Membranes, BadSceneNamesTest, testing::ValuesIn(badMembranes()));
 INSTANTIATE_TEST_SUITE_P(NotAvailable, BadSceneNamesTest, testing::ValuesIn(notAvailable()));
 
 TEST(BadSceneResolverTest, PackagesCantBeFoundWithoutAResolver)

@@ -115,10 +115,11 @@ std::vector<BadScene> badKeys()
        "preset, young_modulus_pa, poisson_ratio, density_kg_per_m3"},
       {"time_step_s: 0.005", "time_step_ms: 5",
        "time_step_ms: unknown key, did you mean 'time_step_s'? Known: time_step_s, "
-       "gravity_m_per_s2, materials, solver, tissues, tools, obstacles, contacts, outputs"},
+       "gravity_m_per_s2, materials, solver, tissues, membranes, tools, obstacles, contacts, "
+       "outputs"},
       {"outputs:", "banana:",
        "banana: unknown key. Known: time_step_s, gravity_m_per_s2, materials, solver, tissues, "
-       "tools, obstacles, contacts, outputs"},
+       "membranes, tools, obstacles, contacts, outputs"},
       {"outputs:", "time_step_s: 0.01\noutputs:", "time_step_s: stands twice, must stand once"},
       {"length_unit: m}", "length_unit: m, file: other.msh}",
        "tissues[0].mesh.file: stands twice, must stand once"},
@@ -134,11 +135,11 @@ std::vector<BadScene> badKeys()
       {"time_s: 1, ", "",
        "tools[0].pose_source.keyframes[1].time_s: missing, must be a number in [0, 1e+06]"},
       {"between: [liver, probe], ", "",
-       "contacts[0].between: missing, must be a list of 2 names: a tissue and a tool or tissue, in "
-       "any order"},
+       "contacts[0].between: missing, must be a list of 2 names: a soft body and what it "
+       "touches, in any order"},
       {"tissues:", "tissues: liver\nx:",
-       "x: unknown key. Known: time_step_s, gravity_m_per_s2, materials, solver, tissues, tools, "
-       "obstacles, contacts, outputs"},
+       "x: unknown key. Known: time_step_s, gravity_m_per_s2, materials, solver, tissues, "
+       "membranes, tools, obstacles, contacts, outputs"},
       {"solver: {tolerance: 1.0e-3, max_iterations: 20, linear: auto}", "solver: fast",
        "solver = fast, must be a map of keys: stepper, tolerance, max_iterations, linear, "
        "budget_ms"},

@@ -56,8 +56,8 @@ TEST_F(BadSceneTextTest, EmptyFile)
 TEST_F(BadSceneTextTest, NotAMap)
 {
   const std::string known =
-      "must be a map of keys: time_step_s, gravity_m_per_s2, materials, solver, tissues, tools, "
-      "obstacles, contacts, outputs";
+      "must be a map of keys: time_step_s, gravity_m_per_s2, materials, solver, tissues, "
+      "membranes, tools, obstacles, contacts, outputs";
   EXPECT_EQ(complaint("- a\n- b\n"), "DIR/scene.yaml: " + known);
   EXPECT_EQ(complaint("just words"), "DIR/scene.yaml: " + known);
 }
@@ -65,9 +65,9 @@ TEST_F(BadSceneTextTest, NotAMap)
 TEST_F(BadSceneTextTest, NoTissue)
 {
   EXPECT_EQ(complaint("time_step_s: 0.01\n"),
-            "DIR/scene.yaml: tissues: missing, must be a list of maps: at least 1");
-  EXPECT_EQ(complaint("tissues: []\n"),
-            "DIR/scene.yaml: tissues: is an empty list, must have at least 1");
+            "DIR/scene.yaml: tissues: missing, must have a tissue, or membranes a membrane");
+  EXPECT_EQ(complaint("tissues: []\nmembranes: []\n"),
+            "DIR/scene.yaml: tissues: missing, must have a tissue, or membranes a membrane");
   EXPECT_EQ(complaint("tissues:\n"), "DIR/scene.yaml: tissues = nothing, must be a list");
   EXPECT_EQ(complaint("tissues: [liver]\n"),
             "DIR/scene.yaml: tissues[0] = liver, must be a map of keys: name, mesh, pose, "

@@ -48,7 +48,8 @@ TEST(SchemaDocsTest, RowsTellTypeUnitRangeDefaultAndMeaning)
       "| `stiffness_pa_per_m` | number or auto | Pa/m | in [1, 1e+15] | auto | Contact "
       "pressure per depth; auto: 20 E / R, E being the tissue's Young's modulus and R the "
       "radius of the largest ball inside the tool, half a cell of an obstacle; of two tissues, E "
-      "of the softer one and the smaller R. |");
+      "of the softer one and the smaller R, of a tissue and a membrane the tissue's; of a "
+      "membrane E t / R^2 in place of E / R, t being its thickness. |");
   EXPECT_EQ(row("capsule", "radius_m"),
             "| `radius_m` | number | m | in (0, 10) | **required** | Radius of the ball. |");
   EXPECT_EQ(row("tool", "pose_source"),
