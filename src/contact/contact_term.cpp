@@ -15,7 +15,7 @@ ContactTerm::ContactTerm(const ContactOptions& options, const std::vector<Tissue
       bodies_(bodies),
       nodes_(bodies.size()),
       points_(bodies.size()),
-      friction_(std::make_unique<Friction>(options.friction))
+      friction_(std::make_unique<Friction>(options.friction, options.damping_s_per_m))
 {}
 
 ContactTerm::~ContactTerm() = default;
@@ -92,6 +92,11 @@ void ContactTerm::addHessian(const Points& x, Curvature kind, BlockMatrix& hessi
     }
   }
   friction_->addHessian(x, hessian);
+}
+
+void ContactTerm::setStep(double step_s)
+{
+  friction_->setStep(step_s);
 }
 
 void ContactTerm::setStiffening(double factor)

@@ -18,6 +18,12 @@ Vec3 slip(const Grip& grip, const Points& x)
   const Vec3 moved = grip.at(x) - grip.stuck_at;
   return moved - grip.normal.dot(moved) * grip.normal;
 }
+
+/** How much nearer both have come in the step, m; parting counts nothing. */
+double approach(const Grip& grip, const Points& x)
+{
+  return std::max(0.0, grip.normal.dot(grip.at(x) - grip.stuck_at));
+}
 }  // namespace
 
 void Friction::begin(const Points& x)
@@ -59,7 +65,12 @@ double Friction::forcePerSlip(const Grip& grip, double slip) const
   return coefficient_ * grip.press / kStick * (y < 1.0 ? 2.0 - y : 1.0 / y);
 }
 
-/** What that force adds up to, zero at rest. */
+double Friction::forcePerApproach(const Grip& grip) const
+{
+  return damping_ * grip.press / step_s_;
+}
+
+/** What those forces add up to, zero at rest. */
 double Friction::value(const Points& x) const
 {
   double sum = 0.0;
@@ -67,19 +78,28 @@ double Friction::value(const Points& x) const
   {
     const double y = slip(grip, x).norm() / kStick;
     sum += coefficient_ * grip.press * kStick * (y < 1.0 ? y * y * (1.0 - y / 3.0) : y - 1.0 / 3.0);
+    const double nearer = approach(grip, x);
+    sum += 0.5 * forcePerApproach(grip) * nearer * nearer;
   }
   return sum;
+}
+
+/** On the first body. */
+Vec3 Friction::forceOf(const Grip& grip, const Points& x) const
+{
+  const Vec3 along = slip(grip, x);
+  return forcePerSlip(grip, along.norm()) * along +
+         forcePerApproach(grip) * approach(grip, x) * grip.normal;
 }
 
 void Friction::addGradient(const Points& x, Points& gradient) const
 {
   for (const Grip& grip : grips_)
   {
-    const Vec3 along = slip(grip, x);
-    const double ratio = forcePerSlip(grip, along.norm());
+    const Vec3 force = forceOf(grip, x);
     for (int j = 0; j < grip.count; ++j)
     {
-      gradient[grip.node[j]] += grip.weight[j] * ratio * along;
+      gradient[grip.node[j]] += grip.weight[j] * force;
     }
   }
 }
@@ -99,6 +119,10 @@ void Friction::addHessian(const Points& x, BlockMatrix& hessian) const
     {
       block += (slope - ratio) / (length * length) * along * along.transpose();
     }
+    if (approach(grip, x) > 0.0)
+    {
+      block += forcePerApproach(grip) * grip.normal * grip.normal.transpose();
+    }
     addBlocks(grip.count, grip.node, hessian,
               [&](int i, int j) -> Mat3 { return grip.weight[i] * grip.weight[j] * block; });
   }
@@ -109,9 +133,7 @@ const std::vector<FrictionForce>& Friction::forcesAt(const Points& x)
   forces_.clear();
   for (const Grip& grip : grips_)
   {
-    const Vec3 along = slip(grip, x);
-    forces_.push_back(
-        {grip.origin + grip.at(x), grip.normal, forcePerSlip(grip, along.norm()) * along});
+    forces_.push_back({grip.origin + grip.at(x), grip.normal, forceOf(grip, x)});
   }
   return forces_;
 }

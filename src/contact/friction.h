@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "soft_tissue_sim/base/types.h"
@@ -35,22 +36,30 @@ struct Grip
 };
 
 /**
- * Coulomb friction between two bodies as a potential of how far one slides along the other.
+ * What two bodies in contact lose energy by: Coulomb friction, as a potential of how far one slides
+ * along the other, and damping, as one of how far they come nearer.
  *
  * Where it acts, how hard both press and along which plane is that of the step's start. Up to a
  * stick length the force grows smoothly with the slip, beyond it is Coulomb's. What has slipped
  * less stays slipped from step to step, so a load is held without creeping. The potential is
  * convex.
  *
+ * Damping adds to a pressure its share per approach speed; bodies that part feel none, so contact
+ * never pulls.
+ *
  * Source: [Li2020] section 5, the smoothed and lagged friction of incremental potential contact,
- * which has no memory.
+ * which has no memory. [Hunt1975], whose damping acts both ways.
  */
 class Friction
 {
  public:
-  explicit Friction(double coefficient) : coefficient_(coefficient) {}
+  /** @param coefficient  of Coulomb  @param damping  share of the pressure per speed, s/m */
+  Friction(double coefficient, double damping) : coefficient_(coefficient), damping_(damping) {}
 
-  bool acts() const { return coefficient_ > 0.0; }
+  bool acts() const { return coefficient_ > 0.0 || damping_ > 0.0; }
+
+  /** Length of the steps that begin from now on, s; infinite where there is no time. */
+  void setStep(double step_s) { step_s_ = step_s; }
 
   /** Begins a step at x, where the last one ended. */
   void begin(const Points& x);
@@ -75,8 +84,11 @@ class Friction
     Vec3 by;
   };
   double forcePerSlip(const Grip& grip, double slip) const;
+  double forcePerApproach(const Grip& grip) const;
+  Vec3 forceOf(const Grip& grip, const Points& x) const;
 
-  double coefficient_;
+  double coefficient_, damping_;
+  double step_s_ = std::numeric_limits<double>::infinity();
   std::vector<Grip> grips_;
   std::vector<Slipped> slipped_;  ///< when the step began, by ascending places
   std::size_t next_slipped_ = 0;  ///< the first that no grip has come past

@@ -82,9 +82,22 @@ int cellsOf(double length, double cell)
   return cell > 0.0 ? static_cast<int>(std::min(length / cell, kMostCells)) + 1 : 1;
 }
 
-SurfaceElements::SurfaceElements(const BoundarySurface& surface, bool edges) : surface_(&surface)
+double perArea(ContactLaw law, const SurfaceElement& element, double length, double share)
 {
-  if (edges)
+  if (law == ContactLaw::pressure || !(element.area > 0.0))
+  {
+    return 1.0;
+  }
+  const bool is_edge = element.nodes[0] != element.nodes[1];
+  const double whole = (is_edge ? length : 1.0) / (share * element.area);
+  return law == ContactLaw::fisher2001 ? 2.0 * whole : whole;  // k d^2, not half of it
+}
+
+SurfaceElements::SurfaceElements(const BoundarySurface& surface, const ContactOptions& options,
+                                 double share)
+    : surface_(&surface), law_(options.law), share_(share)
+{
+  if (options.segments)
   {
     for (const Edge& edge : surface.edges)
     {
@@ -114,7 +127,9 @@ void SurfaceElements::lag(Index number, const Points& x, double cell)
     const Triangle& t = surface_->triangles[*i];
     element.area += (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm() / 6.0;
   }
-  element.cells = cellsOf((x[element.nodes[1]] - x[element.nodes[0]]).norm(), cell);
+  const double length = (x[element.nodes[1]] - x[element.nodes[0]]).norm();
+  element.per_area = perArea(law_, element, length, share_);
+  element.cells = cellsOf(length, cell);
 }
 
 }  // namespace soft_tissue

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/contact/contact_sample.h"
+#include "soft_tissue_sim/contact/contact_term.h"
 #include "soft_tissue_sim/contact/tissue_body.h"
 
 namespace soft_tissue
@@ -13,12 +14,20 @@ struct SurfaceElement
 {
   std::array<Index, 2> nodes{};  ///< a point has the same twice
   double area = 0.0;             ///< m^2
+  double per_area = 1.0;         ///< what the law counts in place of the area, over the area
   int cells = 1;                 ///< equal parts an edge is cut into for its quadrature
 };
 
 /** Adds the nodes that a body's element has its point at a parameter from, with their weights. */
 void addNodes(const TissueBody& body, const SurfaceElement& element, double parameter,
               ContactSample& sample);
+
+/**
+ * What a law counts in place of an element's area, over that area: 1 for pressure; for the others
+ * 1 or the edge's length.
+ * @param share  of the area that counts in each direction: by those laws each counts whole
+ */
+double perArea(ContactLaw law, const SurfaceElement& element, double length, double share);
 
 /** Parts no longer than `cell`, m; one where that is zero. */
 int cellsOf(double length, double cell);
@@ -27,7 +36,8 @@ int cellsOf(double length, double cell);
 class SurfaceElements
 {
  public:
-  SurfaceElements(const BoundarySurface& surface, bool edges);
+  /** @param share  see perArea() */
+  SurfaceElements(const BoundarySurface& surface, const ContactOptions& options, double share);
 
   std::size_t size() const { return elements_.size(); }
   const std::vector<SurfaceElement>& all() const { return elements_; }
@@ -40,6 +50,8 @@ class SurfaceElements
 
  private:
   const BoundarySurface* surface_;
+  ContactLaw law_;
+  double share_;
   std::vector<SurfaceElement> elements_;
   Adjacency triangles_;  ///< rows: elements
 };

@@ -263,7 +263,7 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field,
   sample.element = place.element;
   sample.side = intruder_.side;
   sample.area = intruder_.share * place.area;
-  sample.stiffness_area = stiffness_ * sample.area;
+  sample.stiffness_area = stiffness_ * (*elements_)[place.element].per_area * sample.area;
   sample.force = sample.stiffness_area * sample.depth;
   return sample.depth > 0.0;
 }

@@ -21,11 +21,17 @@ std::vector<Index> numbersOf(const SurfaceElements& elements, bool edges)
   return numbers;
 }
 
+/** Of the intruder's area, see Intruder. */
+double shareOf(const TissueBody& intruder)
+{
+  return intruder.isSolid() ? 0.5 : 1.0;
+}
+
 Intruder intruderOf(const TissueBody& body, int side, bool self)
 {
   Intruder intruder;
   intruder.side = side;
-  intruder.share = body.isSolid() ? 0.5 : 1.0;
+  intruder.share = shareOf(body);
   intruder.body = body;
   intruder.rest = self ? body.rest : nullptr;
   return intruder;
@@ -36,7 +42,7 @@ TissueInTissue::TissueInTissue(const TissueBody& intruder, const TissueBody& hos
                                std::unique_ptr<DistanceField> host_field, int side, bool self,
                                const ContactOptions& options)
     : host_(host),
-      elements_(*intruder.surface, options.segments),
+      elements_(*intruder.surface, options, shareOf(intruder)),
       element_nodes_(numbersOf(elements_, options.segments)),
       field_(std::move(host_field), host.node_count, options.lazy_field),
       surface_(host, intruderOf(intruder, side, self), options),

@@ -15,7 +15,7 @@ TissueInTool::TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool,
       options_(options),
       share_(share),
       cell_length_(0.5 * tool.innerRadius()),
-      surface_(*tissue.surface, options.segments)
+      surface_(*tissue.surface, options, share)
 {}
 
 void TissueInTool::place(const Pose& X_WT)
@@ -76,14 +76,15 @@ void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& sampl
   }
 }
 
-bool TissueInTool::measure(const Vec3& p, double area, ContactSample& sample) const
+bool TissueInTool::measure(const Vec3& p, const SurfaceElement& element, double weight,
+                           ContactSample& sample) const
 {
   const SignedDistance at = tool_.distance(X_TW_ * p);
   sample.position = p;
   sample.depth = -at.distance;
   sample.gradient = -(X_WT_.linear() * at.normal);
-  sample.area = share_ * area;
-  sample.stiffness_area = options_.stiffness_pa_per_m * sample.area;
+  sample.area = share_ * weight * element.area;
+  sample.stiffness_area = options_.stiffness_pa_per_m * element.per_area * sample.area;
   sample.force = sample.stiffness_area * sample.depth;
   sample.side = -1;
   return sample.depth > 0.0;
@@ -103,7 +104,7 @@ void TissueInTool::addPoint(const SurfaceElement& point, const Points& x,
 {
   const Index node = point.nodes[0];
   ContactSample sample;
-  if (bounds_W_.contains(x[node]) && measure(x[node], point.area, sample))
+  if (bounds_W_.contains(x[node]) && measure(x[node], point, 1.0, sample))
   {
     addNodes(tissue_, point, 0.0, sample);
     samples.push_back(sample);
@@ -130,15 +131,15 @@ void TissueInTool::addEdge(const SurfaceElement& edge, const Points& x,
     const SignedDistance at = tool_.distance(X_TW_ * Vec3(a + parameter * along));
     return SegmentDistance{at.distance, at.normal.dot(along_T)};
   };
-  const auto sampleAt = [&](double parameter, double area, ContactSample& sample) {
+  const auto sampleAt = [&](double parameter, double weight, ContactSample& sample) {
     addNodes(tissue_, edge, parameter, sample);
-    return measure(a + parameter * along, area, sample);
+    return measure(a + parameter * along, edge, weight, sample);
   };
   const auto addStretch = [&](const InsideInterval& inside) {
     MovingEnds ends(inside.where, along);
     forEachPoint(kGauss3, inside.where, [&](double parameter, double weight) {
       ContactSample sample;
-      if (sampleAt(parameter, weight * edge.area, sample))
+      if (sampleAt(parameter, weight, sample))
       {
         ends.count(sample, parameter);
         samples.push_back(sample);
@@ -149,7 +150,7 @@ void TissueInTool::addEdge(const SurfaceElement& edge, const Points& x,
       ContactSample sample;
       if (at_begin ? inside.begin_on_surface : inside.end_on_surface)
       {
-        sampleAt(at_begin ? inside.where.begin : inside.where.end, edge.area, sample);
+        sampleAt(at_begin ? inside.where.begin : inside.where.end, 1.0, sample);
         if (ends.close(sample, at_begin))
         {
           samples.push_back(sample);

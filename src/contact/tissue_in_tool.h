@@ -46,7 +46,9 @@ class TissueInTool
                 std::vector<ContactSample>& samples) const;
   void addEdge(const SurfaceElement& edge, const Points& x,
                std::vector<ContactSample>& samples) const;
-  bool measure(const Vec3& p, double area, ContactSample& sample) const;
+  /** @param weight  of the element's area */
+  bool measure(const Vec3& p, const SurfaceElement& element, double weight,
+               ContactSample& sample) const;
 
   TissueBody tissue_;
   const RigidBodyShape& tool_;

@@ -4,19 +4,23 @@ namespace soft_tissue
 {
 namespace
 {
-std::vector<SurfaceElement> elementsOf(const ToolSurface& surface, bool edges, double cell)
+std::vector<SurfaceElement> elementsOf(const ToolSurface& surface, const ContactOptions& options,
+                                       double cell)
 {
+  const bool edges = options.segments;
   std::vector<SurfaceElement> elements;
   for (std::size_t i = 0; edges && i < surface.edges.size(); ++i)
   {
     const Edge& edge = surface.edges[i];
     const double length = (surface.nodes[edge[1]] - surface.nodes[edge[0]]).norm();
-    elements.push_back({{edge[0], edge[1]}, surface.edge_area[i], cellsOf(length, cell)});
+    elements.push_back({{edge[0], edge[1]}, surface.edge_area[i], 1.0, cellsOf(length, cell)});
+    elements.back().per_area = perArea(options.law, elements.back(), length, Intruder().share);
   }
   for (std::size_t i = 0; !edges && i < surface.nodes.size(); ++i)
   {
     const auto node = static_cast<Index>(i);
     elements.push_back({{node, node}, surface.node_area[i]});
+    elements.back().per_area = perArea(options.law, elements.back(), 0.0, Intruder().share);
   }
   return elements;
 }
@@ -27,7 +31,7 @@ ToolInTissue::ToolInTissue(const TissueBody& tissue, const RigidBodyShape& tool,
     : tissue_(tissue), surface_(tissue, Intruder(), options)
 {
   ToolSurface surface = sampleToolSurface(tool);
-  elements_ = elementsOf(surface, options.segments, tissue.short_edge);
+  elements_ = elementsOf(surface, options, tissue.short_edge);
   nodes_T_ = std::move(surface.nodes);
   nodes_W_.resize(nodes_T_.size());
   boxes_W_.resize(elements_.size());

@@ -160,16 +160,6 @@ TissueInfo infoOf(const SoftBodyConfig& config, TetMesh mesh, const LoadReport& 
   return info;
 }
 
-std::vector<double> edgeLengths(const TissueInfo& tissue)
-{
-  std::vector<double> lengths;
-  for (const Edge& edge : tissue.surface.edges)
-  {
-    lengths.push_back((tissue.rest.nodes[edge[1]] - tissue.rest.nodes[edge[0]]).norm());
-  }
-  return lengths;
-}
-
 void hold(const SoftBodyConfig& config, const std::string& where, SoftBodyModel& model)
 {
   model.info.fixed_nodes = fixedNodes(config, model.info.rest.nodes, where);
@@ -236,18 +226,16 @@ std::string item(const SceneConfig& config, const char* list, std::size_t index)
   return config.file + ": " + list + "[" + std::to_string(index) + "]";
 }
 
-double shortEdge(const TissueInfo& tissue)
+double edgeLength(const TissueInfo& tissue, double share)
 {
-  std::vector<double> lengths = edgeLengths(tissue);
-  const auto tenth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 10);
-  std::nth_element(lengths.begin(), tenth, lengths.end());
-  return *tenth;
-}
-
-double longestEdge(const TissueInfo& tissue)
-{
-  const std::vector<double> lengths = edgeLengths(tissue);
-  return *std::max_element(lengths.begin(), lengths.end());
+  std::vector<double> lengths;
+  for (const Edge& edge : tissue.surface.edges)
+  {
+    lengths.push_back((tissue.rest.nodes[edge[1]] - tissue.rest.nodes[edge[0]]).norm());
+  }
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(lengths.size() - 1));
+  std::nth_element(lengths.begin(), lengths.begin() + rank, lengths.end());
+  return lengths[rank];
 }
 
 double innerRadius(const TetMesh& rest, const BoundarySurface& surface)

@@ -39,11 +39,8 @@ SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& wher
 /** "<scene file>: list[index]", for messages. */
 std::string item(const SceneConfig& config, const char* list, std::size_t index);
 
-/** The length a tenth of a body's surface edges fall short of, m. */
-double shortEdge(const TissueInfo& tissue);
-
-/** Length of the longest of them, m. */
-double longestEdge(const TissueInfo& tissue);
+/** The length that this share of a body's surface edges are no longer than, m. */
+double edgeLength(const TissueInfo& tissue, double share);
 
 /** Radius of about the largest ball that fits in a body, m: the largest distance of a node or of a
  * tet's middle from the boundary. */

@@ -13,6 +13,9 @@ namespace
 /** At a tolerance of 1, minimisations end with nodes this share of a tissue's size off. */
 constexpr double kSettled = 1e-3;
 
+/** The share of edges that are short, see TissueBody::short_edge. */
+constexpr double kShortEdges = 0.1;
+
 /** Length of the smallest tissue, m. */
 double smallestSize(const std::vector<TissueInfo>& tissues)
 {
@@ -94,7 +97,7 @@ Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, SoftBodyModel& 
     moved_.push_back(std::move(moved));
   }
   tissue.node_count = static_cast<Index>(info.rest.nodes.size());
-  tissue.short_edge = shortEdge(info);
+  tissue.short_edge = edgeLength(info, kShortEdges);
   x_.insert(x_.end(), info.rest.nodes.begin(), info.rest.nodes.end());
   masses_.resize(x_.size(), 0.0);
   return tissue;

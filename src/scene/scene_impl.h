@@ -119,6 +119,7 @@ class Scene::Impl
   void refuseDeepStart(const Contact& contact);
   std::string itemOf(std::size_t tissue) const;
   double stiffnessAgainstRigid(const Contact& contact) const;
+  bool isFine(std::size_t tissue, double radius_m) const;
   double innerRadiusOf(std::size_t tissue);
   TissueBody bodyOf(std::size_t tissue) const;
   TissueBody surfaceFor(double size_m, const ContactConfig& config, Contact& contact) const;

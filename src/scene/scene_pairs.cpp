@@ -31,15 +31,19 @@ bool refreshes(const FieldConfig& field)
   return lazy || field.refresh == FieldRefresh::full;
 }
 
-ContactOptions optionsOf(const ContactConfig& config, const FieldConfig& field,
+ContactOptions optionsOf(const ContactConfig& config, const FieldConfig& field, bool fine,
                          double auto_stiffness)
 {
   ContactOptions options;
-  options.segments = config.response == Response::segment;
+  options.law = config.law;
+  options.segments =
+      config.response == Response::segment || (config.response == Response::automatic && !fine);
   options.closest_feature = field.depth == DepthKind::closest_feature;
   options.lazy_field = field.refresh == FieldRefresh::lazy;
-  options.stiffness_pa_per_m = config.stiffness_pa_per_m.value_or(auto_stiffness);
+  options.stiffness_pa_per_m =
+      config.penalty.value_or(config.stiffness_pa_per_m.value_or(auto_stiffness));
   options.friction = config.friction;
+  options.damping_s_per_m = config.damping_s_per_m;
   return options;
 }
 }  // namespace
@@ -81,7 +85,8 @@ void Scene::Impl::addToolContact(const ContactConfig& config, Contact& contact)
   contact.refresh = refreshes(field);
   auto term = std::make_unique<ToolContact>(
       surfaceFor(contact.size_m, config, contact), shape, fieldOf(contact.tissue),
-      optionsOf(config, field, stiffnessAgainstRigid(contact)));
+      optionsOf(config, field, isFine(contact.tissue, contact.size_m),
+                stiffnessAgainstRigid(contact)));
   contact.with_tool = term.get();
   contact.term = std::move(term);
 }
@@ -93,7 +98,8 @@ void Scene::Impl::addObstacleContact(const ContactConfig& config, Contact& conta
   contact.size_m = obstacle.shape->innerRadius();
   auto term = std::make_unique<ObstacleContact>(
       surfaceFor(contact.size_m, config, contact), obstacle.shape, obstacle.X_WO,
-      optionsOf(config, fieldConfigOf(contact.tissue), stiffnessAgainstRigid(contact)));
+      optionsOf(config, fieldConfigOf(contact.tissue), isFine(contact.tissue, contact.size_m),
+                stiffnessAgainstRigid(contact)));
   contact.with_obstacle = term.get();
   contact.term = std::move(term);
 }
@@ -114,7 +120,8 @@ void Scene::Impl::addTissueContact(const ContactConfig& config, Contact& contact
   const FieldConfig field = fieldConfigOf(tissue_info_[first].isMembrane() ? second : first);
   contact.refresh = refreshes(field);
   const ContactOptions options =
-      optionsOf(config, field, kAutoStiffness * young_modulus / contact.size_m);
+      optionsOf(config, field, isFine(first, contact.size_m) && isFine(second, contact.size_m),
+                kAutoStiffness * young_modulus / contact.size_m);
   TissueContact::Side a = {surfaceFor(tissues_[second].short_edge, config, contact),
                            fieldOf(first)};
   auto term = first == second ? std::make_unique<TissueContact>(std::move(a), options)
@@ -135,6 +142,12 @@ double Scene::Impl::stiffnessAgainstRigid(const Contact& contact) const
           ? 1.0
           : config_.membranes[contact.tissue - tissues].thickness_m / contact.size_m;
   return kAutoStiffness * young_modulus * share / contact.size_m;
+}
+
+/** Whether a soft body's edges are fine for contact with this radius, see kFineEdge. */
+bool Scene::Impl::isFine(std::size_t tissue, double radius_m) const
+{
+  return edgeLength(tissue_info_[tissue], 0.5) < kFineEdge * radius_m;
 }
 
 double Scene::Impl::innerRadiusOf(std::size_t tissue)
@@ -171,7 +184,7 @@ TissueBody Scene::Impl::surfaceFor(double size_m, const ContactConfig& config,
   {
     return body;
   }
-  const double longest = longestEdge(info);
+  const double longest = edgeLength(info, 1.0);
   if (longest > kMostCuts * size_m)
   {
     throw Error(itemOf(contact.tissue) + " '" + info.name + "' has edges of " +

@@ -41,6 +41,28 @@ void setPair(ContactConfig& contact, const std::pair<std::string, std::string>& 
   contact.other = names.second;
 }
 
+void checkLaw(const Item& item, ContactConfig& contact)
+{
+  const bool is_pressure = contact.law == ContactLaw::pressure;
+  if (is_pressure && contact.penalty)
+  {
+    item.at("penalty").rejectValue(
+        "is for laws fisher2001 and marchal2004, which aren't asked for");
+  }
+  if (!is_pressure && !contact.penalty)
+  {
+    item.rejectKey("penalty", "missing, must be given with law " + item.at("law").scalar());
+  }
+  if (!is_pressure && contact.stiffness_pa_per_m)
+  {
+    item.at("stiffness_pa_per_m").rejectValue("is for law pressure; this one has a penalty");
+  }
+  if (contact.law == ContactLaw::fisher2001 && contact.response != Response::point)
+  {
+    item.at("law").rejectValue("knows nodes alone, must stand with response: point");
+  }
+}
+
 const Section<OutputsConfig>& outputsSection()
 {
   static const Section<OutputsConfig> section =
@@ -60,10 +82,24 @@ const Section<ContactConfig>& contactSection()
                     "Who touches whom; each pair once. A tissue named twice touches itself. Two "
                     "membranes, tools or obstacles pass through each other.")
           .optional("response", &ContactConfig::response,
-                    choice<Response>({{"point", Response::point}, {"segment", Response::segment}},
-                                     {"auto"}),
+                    choice<Response>({{"point", Response::point},
+                                      {"segment", Response::segment},
+                                      {"auto", Response::automatic}}),
                     "Where contact pressure is integrated: at surface nodes, or along surface "
-                    "edges.")
+                    "edges; auto: at nodes where both surfaces' edges are mostly shorter than " +
+                        shortest(kFineEdge) + " R, R as in stiffness_pa_per_m.")
+          .optional("law", &ContactConfig::law,
+                    choice<ContactLaw>({{"pressure", ContactLaw::pressure},
+                                        {"fisher2001", ContactLaw::fisher2001},
+                                        {"marchal2004", ContactLaw::marchal2004}}),
+                    "What a depth d costs. pressure: stiffness times d is a pressure, whatever the "
+                    "mesh. The others are for comparison, and depend on the mesh. fisher2001: each "
+                    "node costs k d^2; marchal2004: each node feels k d, or each edge k d "
+                    "integrated along it.")
+          .optional("penalty", &ContactConfig::penalty,
+                    maybe(number(0.0, 1e15, Ends::open_below), "none", false),
+                    "The k of law fisher2001 or marchal2004, which need it: N/m, along edges "
+                    "N/m^2.")
           .optional("stiffness_pa_per_m", &ContactConfig::stiffness_pa_per_m,
                     maybe(number(1.0, 1e15, Ends::closed), "auto", true),
                     "Contact pressure per depth; auto: " + shortest(kAutoStiffness) +
@@ -75,9 +111,14 @@ const Section<ContactConfig>& contactSection()
           .optional(
               "friction", &ContactConfig::friction, number(0.0, 2.0, Ends::closed),
               "Coulomb coefficient; what it holds gives way by less than 0.1 mm/s times the step.")
+          .optional("damping_s_per_m", &ContactConfig::damping_s_per_m,
+                    number(0.0, 1e6, Ends::closed),
+                    "Pressure that bodies coming nearer feel beyond that of the depth, as a share "
+                    "of it per m/s; bodies that part feel none.")
           .optional("max_penetration_m", &ContactConfig::max_penetration_m,
                     maybe(number(0.0, 1.0, Ends::open), "none", true),
-                    "Depth that contact keeps to by getting stiffer where it is deeper.");
+                    "Depth that contact keeps to by getting stiffer where it is deeper.")
+          .finally(checkLaw);
   return section;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "soft_tissue_sim/contact/contact_law.h"
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/tissue_body.h"
 #include "soft_tissue_sim/energy/term.h"
@@ -15,11 +16,13 @@ struct DepthCurvature;
 /** How contact of a pair is modelled. */
 struct ContactOptions
 {
+  ContactLaw law = ContactLaw::pressure;
   bool segments = true;         ///< segment-in-object; false: point-in-object
   bool closest_feature = true;  ///< depth from the nearest boundary feature; false: interpolated
   bool lazy_field = true;       ///< march only as far as contacts read, and only when they do
-  double stiffness_pa_per_m = 0.0;  ///< kappa
+  double stiffness_pa_per_m = 0.0;  ///< kappa, or the k of another law
   double friction = 0.0;            ///< Coulomb coefficient, >= 0
+  double damping_s_per_m = 0.0;     ///< pressure over pressure per speed of approach, >= 0
 };
 
 /** Wall time of a contact's parts since the last call of takeTimes(), s. */
@@ -53,6 +56,9 @@ class ContactTerm : public EnergyTerm
   /** Exact but for what the motion of clip points adds, and of the kinks of an interpolated depth;
    * its positive part is what a depth without curvature would give. */
   void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
+
+  /** Length of the step that begins next, s; infinite where there is no time. */
+  void setStep(double step_s);
 
   /** Multiplies the options' stiffness from now on; 1 at first. */
   void setStiffening(double factor);

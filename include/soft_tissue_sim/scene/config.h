@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/base/types.h"
+#include "soft_tissue_sim/contact/contact_law.h"
 #include "soft_tissue_sim/energy/material.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
 
@@ -194,7 +195,12 @@ enum class Response
 {
   point,
   segment,
+  automatic,  ///< points where edges are shorter than kFineEdge, else segments
 };
+
+/** Below this a surface's edges are fine enough for contact at its nodes, in the radius of the
+ * largest ball inside the smaller of the bodies. */
+constexpr double kFineEdge = 0.125;
 
 /** Contact stiffness that a scene leaves to us, in the tissue's Young's modulus over the tool's
  * inner radius, half a cell of an obstacle; of two tissues the softer one's modulus and the smaller
@@ -207,9 +213,12 @@ struct ContactConfig
   std::string tissue;  ///< or membrane
   std::string other;   ///< tool, obstacle, another tissue, or the same, which then touches itself
   Response response = Response::segment;
+  ContactLaw law = ContactLaw::pressure;
   std::optional<double> stiffness_pa_per_m;  ///< empty: kAutoStiffness
+  std::optional<double> penalty;             ///< the constant of a law that isn't pressure
   double friction = 0.0;                     ///< Coulomb coefficient
-  std::optional<double> max_penetration_m;   ///< empty: as deep as the stiffness lets it
+  double damping_s_per_m = 0.0;
+  std::optional<double> max_penetration_m;  ///< empty: as deep as the stiffness lets it
 };
 
 enum class Stepper

@@ -175,8 +175,6 @@ std::vector<BadScene> notAvailable()
        "obstacles[0].octomap.topic: " NOT_AVAILABLE},
       {"    field: {method: cffm}", "    element: tet10", "tissues[0].element: " NOT_AVAILABLE},
       {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
-      {"response: segment", "response: auto",
-       "contacts[0].response = auto, " NOT_AVAILABLE "; must be point, segment"},
       {"linear: auto", "linear: multigrid",
        "solver.linear = multigrid, " NOT_AVAILABLE "; must be auto, pcg, cholesky"},
       {"linear: auto", "stepper: bdf2",
