@@ -10,6 +10,7 @@
 #include "field_table.h"
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/timer.h"
+#include "soft_tissue_sim/collision/overlapping_tets.h"
 #include "soft_tissue_sim/mesh/generate.h"
 
 namespace soft_tissue::studies
@@ -91,6 +92,7 @@ class Contest
     const std::shared_ptr<PairFinder> back =
         makePairFinder(method.method, scene_.b.edges(), scene_.a.tets(), false);
     const auto pairs = std::make_shared<std::array<Pairs, 2>>();
+    const auto filter = std::make_shared<SegmentFilter>();
     const DetectionBody &a = scene_.a, &b = scene_.second();
     const bool one_body = scene_.one_body;
     add({std::string(method.name) + (both ? ", edges in tets, both ways" : ", edges in tets"),
@@ -103,11 +105,13 @@ class Contest
            return (*pairs)[0].size() + (*pairs)[1].size();
          },
          [=, &a, &b] {
-           return countPieces(a, b, (*pairs)[0]) + (both ? countPieces(b, a, (*pairs)[1]) : 0);
+           return countPieces(a, b, (*pairs)[0], *filter) +
+                  (both ? countPieces(b, a, (*pairs)[1], *filter) : 0);
          },
          [=, &a, &b] {
-           return countPieces(a, b, everyPair(a.edges(), b.tets(), a.x, b.x, one_body)) +
-                  (both ? countPieces(b, a, everyPair(b.edges(), a.tets(), b.x, a.x, false)) : 0);
+           return countPiecesOneByOne(a, b, everyPair(a.edges(), b.tets(), a.x, b.x, one_body)) +
+                  (both ? countPiecesOneByOne(b, a, everyPair(b.edges(), a.tets(), b.x, a.x, false))
+                        : 0);
          },
          {},
          {}});
@@ -126,15 +130,20 @@ class Contest
   template <typename Find>
   void addTetsFoundBy(const std::string& name, const Find& find)
   {
-    const auto pairs = std::make_shared<Pairs>();
+    const auto pairs = std::make_shared<Pairs>(), overlapping = std::make_shared<Pairs>();
     const DetectionBody &a = scene_.a, &b = scene_.b;
     add({name,
          [=, &a, &b] {
            find(a, b, *pairs);
            return pairs->size();
          },
-         [=, &a, &b] { return countTets(a, b, *pairs); },
-         [=, &a, &b] { return countTets(a, b, everyPair(a.tets(), b.tets(), a.x, b.x, false)); },
+         [=, &a, &b] {
+           findOverlappingTets(a.tets(), a.x.data(), b.tets(), b.x.data(), *pairs, *overlapping);
+           return overlapping->size();
+         },
+         [=, &a, &b] {
+           return countTetsOneByOne(a, b, everyPair(a.tets(), b.tets(), a.x, b.x, false));
+         },
          {},
          {}});
   }
