@@ -9,8 +9,9 @@ namespace
 constexpr double kLeastHalf = 1e-200;  // m: its inverse is finite
 /** A search looks this many calls ahead, if that is not too far. */
 constexpr double kCallsAhead = 8.0;
-/** Looking ahead for fewer calls costs more than it saves. */
-constexpr double kLeastCalls = 2.0;
+/** Looking ahead for fewer calls costs as much as it saves: such a search takes up to three times
+ * as long. */
+constexpr double kLeastCalls = 4.0;
 /** In shares of what is not too far: what still stands may move soon. */
 constexpr double kLeastAhead = 0.2;
 }  // namespace
