@@ -25,6 +25,13 @@ std::array<Vec3, 4> cornersOf(const DetectionBody& body, Index tet)
   const Tet& t = body.mesh.tets[tet];
   return {body.x[t[0]], body.x[t[1]], body.x[t[2]], body.x[t[3]]};
 }
+
+bool cuts(const DetectionBody& body, Index edge, const TetCoordinates& tet)
+{
+  const Edge& nodes = body.surface.edges[edge];
+  const auto piece = clipSegment(body.x[nodes[0]], body.x[nodes[1]], tet);
+  return piece && piece->lambda1 < piece->lambda2;
+}
 }  // namespace
 
 DetectionBody::DetectionBody(TetMesh body)
@@ -60,31 +67,48 @@ void DetectionScene::move(int turn)
 }
 
 std::size_t countPieces(const DetectionBody& first, const DetectionBody& second,
-                        const std::vector<ElementPair>& pairs)
+                        const std::vector<ElementPair>& pairs, SegmentFilter& filter)
 {
+  filter.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    const Tet& tet = second.mesh.tets[pairs[i].second];
+    if (i == 0 || pairs[i].second != pairs[i - 1].second)  // the pairs of a tet follow each other
+    {
+      filter.setTet(second.x[tet[0]], second.x[tet[1]], second.x[tet[2]], second.x[tet[3]]);
+    }
+    const Edge& edge = first.surface.edges[pairs[i].first];
+    filter.add(static_cast<Index>(i), first.x[edge[0]], first.x[edge[1]]);
+  }
   std::size_t count = 0;
   Index tet = -1;
   std::optional<TetCoordinates> coordinates;
-  for (const ElementPair& pair : pairs)
+  for (const Index i : filter.left())
   {
-    if (pair.second != tet)  // the pairs of a tet follow each other
+    const ElementPair& pair = pairs[i];
+    if (pair.second != tet)
     {
       tet = pair.second;
-      const std::array<Vec3, 4> p = cornersOf(second, tet);
-      coordinates = tetCoordinates(p[0], p[1], p[2], p[3]);
+      const Tet& t = second.mesh.tets[tet];
+      coordinates = tetCoordinates(second.x[t[0]], second.x[t[1]], second.x[t[2]], second.x[t[3]]);
     }
-    if (coordinates)
-    {
-      const Edge& edge = first.surface.edges[pair.first];
-      const auto piece = clipSegment(first.x[edge[0]], first.x[edge[1]], *coordinates);
-      count += piece && piece->lambda1 < piece->lambda2 ? 1 : 0;
-    }
+    count += coordinates && cuts(first, pair.first, *coordinates) ? 1 : 0;
   }
   return count;
 }
 
-std::size_t countTets(const DetectionBody& first, const DetectionBody& second,
-                      const std::vector<ElementPair>& pairs)
+std::size_t countPiecesOneByOne(const DetectionBody& first, const DetectionBody& second,
+                                const std::vector<ElementPair>& pairs)
+{
+  return std::count_if(pairs.begin(), pairs.end(), [&](const ElementPair& pair) {
+    const std::array<Vec3, 4> p = cornersOf(second, pair.second);
+    const auto coordinates = tetCoordinates(p[0], p[1], p[2], p[3]);
+    return coordinates && cuts(first, pair.first, *coordinates);
+  });
+}
+
+std::size_t countTetsOneByOne(const DetectionBody& first, const DetectionBody& second,
+                              const std::vector<ElementPair>& pairs)
 {
   return std::count_if(pairs.begin(), pairs.end(), [&](const ElementPair& pair) {
     return tetsOverlap(cornersOf(first, pair.first), cornersOf(second, pair.second));

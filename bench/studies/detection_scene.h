@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/collision/pair_finder.h"
+#include "soft_tissue_sim/collision/segment_filter.h"
 #include "soft_tissue_sim/mesh/topology.h"
 
 namespace soft_tissue::studies
@@ -38,10 +39,13 @@ struct DetectionScene
 
 /** Pieces of the first body's surface edges inside tets of the second, of the pairs in a list. */
 std::size_t countPieces(const DetectionBody& first, const DetectionBody& second,
-                        const std::vector<ElementPair>& pairs);
-/** Pairs of tets in a list that overlap, by separating axes. */
-std::size_t countTets(const DetectionBody& first, const DetectionBody& second,
-                      const std::vector<ElementPair>& pairs);
+                        const std::vector<ElementPair>& pairs, SegmentFilter& filter);
+/** The same without the filter. */
+std::size_t countPiecesOneByOne(const DetectionBody& first, const DetectionBody& second,
+                                const std::vector<ElementPair>& pairs);
+/** Pairs of tets in a list that overlap, each by separating axes. */
+std::size_t countTetsOneByOne(const DetectionBody& first, const DetectionBody& second,
+                              const std::vector<ElementPair>& pairs);
 
 /** All pairs whose boxes overlap, each with each. */
 std::vector<ElementPair> everyPair(const ElementSet& first, const ElementSet& second,

@@ -88,10 +88,6 @@ void ElementGroups::placeFiniteNodes()
 
 void ElementGroups::refitIfNeeded()
 {
-  if (order_.empty())
-  {
-    makeGroups();
-  }
   double growth = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -100,22 +96,50 @@ void ElementGroups::refitIfNeeded()
   if (!all_finite_ || !all_finite_at_refit_ || !(growth <= slack_))
   {
     refit();
-    if (!(size_ <= kGrown * size_when_made_))
-    {
-      makeGroups();
-      refit();
-      size_when_made_ = size_;
-    }
-    drift_ = {};
   }
+}
+
+void ElementGroups::refit()
+{
+  if (order_.empty())
+  {
+    makeGroups();
+  }
+  fitBoxes();
+  if (!(size_ <= kGrown * size_when_made_))
+  {
+    makeGroups();
+    fitBoxes();
+    size_when_made_ = size_;
+  }
+  drift_ = {};
+}
+
+void ElementGroups::widen(double by)
+{
+  margin_ += by;
+  for (double& end : bounds_.v)
+  {
+    end -= by;
+  }
+}
+
+double ElementGroups::rounding() const
+{
   double largest = largest_at_refit_ + margin_;
   for (const double end : bounds_.v)
   {
     largest = std::max(largest, std::abs(end));
   }
+  return kRounding * largest;
+}
+
+void ElementGroups::addMarginToDrift()
+{
+  const double by = margin_ + rounding();
   for (double& end : drift_.v)
   {
-    end -= margin_ + kRounding * largest;
+    end -= by;
   }
 }
 
@@ -219,7 +243,7 @@ void ElementGroups::arrange(const std::vector<Vec3>& centres, Index* begin, Inde
   arrange(centres, begin + half, end);
 }
 
-void ElementGroups::refit()
+void ElementGroups::fitBoxes()
 {
   ++refits_;
   std::vector<BoxEnds>& groups = levels_[0];

@@ -39,8 +39,20 @@ class ElementGroups
 
   /** Makes the tree's boxes fit well enough to be gone through; the groups at the first call. */
   void refitIfNeeded();
+  /** Makes them fit as they were just placed. */
+  void refit();
   std::uint32_t refits() const { return refits_; }
 
+  bool allFinite() const { return all_finite_; }
+  /** What rounding may add to a distance, m. */
+  double rounding() const;
+  /** How wide drift may get before boxes are made anew, m; below 0 at first. */
+  double slack() const { return slack_; }
+  /** Grows the margin of this call, m. */
+  void widen(double by);
+
+  /** Counts the margin and rounding as drift; before the tree is gone through. */
+  void addMarginToDrift();
   /** How far the true ends of a box may lie below those of the tree. */
   const BoxEnds& drift() const { return drift_; }
 
@@ -87,7 +99,7 @@ class ElementGroups
   void nameNodes();
   void arrange(const std::vector<Vec3>& centres, Index* begin, Index* end);
   void makeBoxes(Index group);
-  void refit();
+  void fitBoxes();
 
   ElementSet set_;
   double sign_;                    ///< of the first three ends

@@ -3,11 +3,17 @@
 #include <vector>
 
 #include "element_groups.h"
+#include "kept_pairs.h"
 #include "pair_order.h"
 
 namespace soft_tissue
 {
-/** What the ways to find pairs have in common; they differ in how they get from sets to groups. */
+/**
+ * What the ways to find pairs have in common; they differ in how they get from sets to groups.
+ *
+ * Where elements come nearer slowly, a search goes farther than asked, and later calls pick from
+ * its pairs until elements may have come nearer than it went.
+ */
 class GroupPairs : public PairFinder
 {
  public:
@@ -55,12 +61,18 @@ class GroupPairs : public PairFinder
     return (halves[0] | halves[1]) != 0;
   }
 
+  double nearerSinceRefit() const;
+  double lookAhead(double nearer_a_call) const;
+  void searchAll(std::vector<ElementPair>& pairs);
   void setLaneScale();
 
   bool one_body_;
   std::vector<ElementPair> found_;  ///< longer than they are many
   std::size_t found_count_ = 0;
   PairOrder order_;
+  KeptPairs kept_;
+  double reach_ = -1.0;  ///< margin of the search whose pairs are kept, m; below 0: none are
+  int calls_ = 0;        ///< since both trees were made to fit
 };
 
 }  // namespace soft_tissue

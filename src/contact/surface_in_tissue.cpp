@@ -40,6 +40,35 @@ bool SurfaceInTissue::findHosts(const std::vector<SurfaceElement>& elements, con
   held_.clear();
   point_host_.resize(elements.size(), -1);
   edge_hosts_.reset(static_cast<Index>(elements.size()));
+  dropMisses(candidates);
+  Index t = -1;
+  bool flat = false;  // a flat tet holds nothing
+  for (const Index i : filter_.left())
+  {
+    if (candidates[i].second != t)
+    {
+      t = candidates[i].second;
+      const Tet& tet = (*host_.tets)[t];
+      const auto coords = tetCoordinates(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
+      flat = !coords;
+      if (!flat)
+      {
+        hosts_.push_back({t, *coords});
+      }
+    }
+    if (!flat)
+    {
+      hostElement(candidates[i].first, static_cast<Index>(hosts_.size()) - 1);
+    }
+  }
+  std::sort(held_.begin(), held_.end());
+  return !held_.empty();
+}
+
+void SurfaceInTissue::dropMisses(const std::vector<ElementPair>& candidates)
+{
+  const Points& x = *x_;
+  filter_.clear();
   for (std::size_t i = 0; i < candidates.size();)
   {
     const Index t = candidates[i].second;
@@ -49,33 +78,18 @@ bool SurfaceInTissue::findHosts(const std::vector<SurfaceElement>& elements, con
     {
       box.extend(x[node]);
     }
-    bool tried = false, flat = false;  // a flat tet holds nothing
+    filter_.setTet(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
     for (; i < candidates.size() && candidates[i].second == t; ++i)
     {
-      const Index element = candidates[i].first;
-      const Vec3& a = end(element, 0);
-      const Vec3& b = end(element, 1);
-      if (flat || !(a.cwiseMin(b).array() <= box.max.array()).all() ||
-          !(a.cwiseMax(b).array() >= box.min.array()).all())
+      const Vec3& a = end(candidates[i].first, 0);
+      const Vec3& b = end(candidates[i].first, 1);
+      if ((a.cwiseMin(b).array() <= box.max.array()).all() &&
+          (a.cwiseMax(b).array() >= box.min.array()).all())
       {
-        continue;
+        filter_.add(static_cast<Index>(i), a, b);
       }
-      if (!tried)
-      {
-        tried = true;
-        const auto coords = tetCoordinates(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
-        flat = !coords;
-        if (flat)
-        {
-          continue;
-        }
-        hosts_.push_back({t, *coords});
-      }
-      hostElement(element, static_cast<Index>(hosts_.size()) - 1);
     }
   }
-  std::sort(held_.begin(), held_.end());
-  return !held_.empty();
 }
 
 void SurfaceInTissue::hostElement(Index element, Index number)

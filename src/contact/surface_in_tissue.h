@@ -5,6 +5,7 @@
 
 #include "soft_tissue_sim/collision/pair_finder.h"
 #include "soft_tissue_sim/collision/segment_cover.h"
+#include "soft_tissue_sim/collision/segment_filter.h"
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/contact_term.h"
 #include "soft_tissue_sim/contact/tissue_depth.h"
@@ -66,6 +67,7 @@ class SurfaceInTissue
     double area;
   };
 
+  void dropMisses(const std::vector<ElementPair>& candidates);
   void hostElement(Index element, Index number);
   void addPoint(Index element, const DistanceField& field, std::vector<ContactSample>& samples);
   void addPieces(Index edge, const DistanceField& field, std::vector<ContactSample>& samples);
@@ -86,6 +88,7 @@ class SurfaceInTissue
   const std::vector<SurfaceElement>* elements_ = nullptr;
   const Points* nodes_ = nullptr;
   const Points* x_ = nullptr;
+  SegmentFilter filter_;           ///< of candidates, by their places
   std::vector<Host> hosts_;        ///< tets that hold something
   std::vector<Index> point_host_;  ///< per point: place in hosts_, or -1
   std::vector<Index> held_;        ///< points and edges that have a host, ascending

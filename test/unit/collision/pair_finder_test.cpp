@@ -110,6 +110,47 @@ TEST_P(PairFinders, LeaveOutWhatSharesNodesInOneBody)
   expectAllFound(body.x, folded);
 }
 
+// Steps of a tenth of an edge and less: pairs are kept from call to call. Bodies come nearer, pass
+// each other, stand still and leap; the margin is not the same each time.
+TEST_P(PairFinders, FindAllOfWhatMovesSlowly)
+{
+  const PairBody a(makeBall(1.0, 1500)), b(makeBall(1.0, 1500));
+  prepare(a, b);
+  RandomGeometry random(6);
+  for (const double step : {0.02, 0.002, 0.0, 0.06, 0.3})
+  {
+    Points x_a = a.x, x_b = b.moved(Vec3(1.9, 0.1, 0.0));
+    std::size_t found = 0;
+    for (int call = 0; call < 24; ++call)
+    {
+      for (Vec3& p : x_b)
+      {
+        p += step * Vec3(-0.5, 0.1, 0.0);
+      }
+      x_a = PairBody::shaken(x_a, random, 0.3 * step);
+      x_b = PairBody::shaken(x_b, random, 0.3 * step);
+      found += expectAllFound(x_a, x_b, call % 5 == 4 ? 0.02 : call % 7 == 6 ? 0.05 : 0.0);
+      ASSERT_FALSE(HasFailure()) << step << " " << call;
+    }
+    EXPECT_GT(found, 0u);
+  }
+}
+
+TEST_P(PairFinders, FindAllOfOneBodyThatMovesSlowly)
+{
+  const PairBody body(makeTube(0.3, 0.5, 1.0, 800));
+  prepare(body, body, true);
+  for (int call = 0; call < 20; ++call)
+  {
+    Points x = body.x;
+    for (Vec3& p : x)
+    {
+      p.z() = std::abs(p.z() - 0.5) + 0.003 * call * p.x();
+    }
+    expectAllFound(x, x, 0.01);
+  }
+}
+
 TEST_P(PairFinders, TakeElementsOfOneToFourNodes)
 {
   RandomGeometry random(4);

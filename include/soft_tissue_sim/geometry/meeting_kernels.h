@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+
+#include "soft_tissue_sim/base/cpu.h"
+
+namespace soft_tissue
+{
+/** Pairs that are looked at side by side. */
+constexpr int kMeetingLanes = 8;
+
+/** Eight pairs of tets, in single precision, all as seen from the first tet's first corner. */
+struct TetPairLanes
+{
+  alignas(32) float a[3][3][kMeetingLanes];  ///< corners 1 to 3 of the first tet: [corner][axis]
+  alignas(32) float b[4][3][kMeetingLanes];  ///< corners of the second
+};
+
+/** Eight pairs of a tet and a segment, in single precision, as seen from the tet's first corner. */
+struct TetSegmentLanes
+{
+  alignas(32) float tet[3][3][kMeetingLanes];   ///< corners 1 to 3: [corner][axis]
+  alignas(32) float ends[2][3][kMeetingLanes];  ///< of the segment
+};
+
+/** What single precision can tell. What it can't, be it that numbers are no numbers, is unclear. */
+enum class Meeting : std::uint8_t
+{
+  unclear,
+  apart,    ///< by far more than the tolerances of tetsOverlap() and clipSegment()
+  together  ///< by far more than rounding
+};
+
+/** Tells of pairs of lanes whether they meet; a bound on rounding decides what is unclear. */
+struct MeetingKernels
+{
+  /** Separating planes: faces of either tet, and planes through edges of the first.
+   * Source: [Ganovelli2002] edges by the heights over the faces beside them. */
+  void (*tets)(const TetPairLanes& lanes, Meeting* meetings);
+  /** Clips; never says together. */
+  void (*segments)(const TetSegmentLanes& lanes, Meeting* meetings);
+};
+
+/** The kernels for this machine. */
+const MeetingKernels& meetingKernels(InstructionSet set);
+
+}  // namespace soft_tissue

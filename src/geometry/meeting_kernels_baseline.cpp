@@ -1,0 +1,2 @@
+#define SOFT_TISSUE_KERNELS kernels_baseline
+#include "meeting_kernels_impl.h"
