@@ -4,6 +4,7 @@
 #include <fstream>
 #include <vector>
 
+#include "contact_cost.h"
 #include "detection_study.h"
 #include "indentation.h"
 #include "soft_tissue_sim/base/error.h"
@@ -67,6 +68,7 @@ class ContactTable
 void studyContact(const std::string& folder, bool quick)
 {
   studyDetection(folder, quick);
+  studyContactCost(folder, quick);
   using Shape = Indentation::Shape;
   struct Case
   {

@@ -6,7 +6,8 @@ namespace soft_tissue::studies
 {
 /**
  * Contact forces against contact mechanics, and from mesh to mesh; writes DIR/contact.csv. Before
- * that, how long finding contacts takes: DIR/detection.csv.
+ * that, how long finding contacts takes, DIR/detection.csv, and what of a step is contact,
+ * DIR/contact_cost.csv.
  * @param quick  coarse meshes only
  * @throws Error if a file can't be written
  */

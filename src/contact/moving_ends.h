@@ -28,8 +28,8 @@ class MovingEnds
     const double length = stretch_.end - stretch_.begin;
     const double share = (parameter - stretch_.begin) / length;
     const double slope = sample.gradient.dot(along_);
-    by_begin_ += sample.force * (slope * (1.0 - share) - 0.5 * sample.depth / length);
-    by_end_ += sample.force * (slope * share + 0.5 * sample.depth / length);
+    by_begin_ += sample.force * (slope * (1.0 - share) - 0.5 * sample.excess() / length);
+    by_end_ += sample.force * (slope * share + 0.5 * sample.excess() / length);
   }
 
   /** Turns a sample at the stretch's begin or end into the force of its motion; false where it
@@ -45,7 +45,7 @@ class MovingEnds
       return false;
     }
     sample.force = -(at_begin ? by_begin_ : by_end_) / slope;
-    sample.depth = sample.area = sample.stiffness_area = 0.0;
+    sample.depth = sample.allowed = sample.area = sample.stiffness_area = 0.0;
     return true;
   }
 

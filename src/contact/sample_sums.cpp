@@ -9,7 +9,7 @@ double contactEnergy(const std::vector<ContactSample>& samples)
   double energy = 0.0;
   for (const ContactSample& s : samples)
   {
-    energy += 0.5 * s.stiffness_area * s.depth * s.depth;
+    energy += 0.5 * s.stiffness_area * s.excess() * s.excess();
   }
   return energy;
 }
@@ -40,12 +40,13 @@ void addStiffness(const ContactSample& s, const DepthCurvature& curvature, Block
   const auto& c = s.coefficient;
   const auto& b = curvature.turn;
   const Mat3 gg = g * g.transpose();
-  const Mat3 slide = gg + curvature.bend;
-  const double turned = curvature.distance ? s.depth * s.depth : 0.0;
+  const double share = s.excess() / s.depth;
+  const Mat3 slide = gg + share * curvature.bend;
+  const double turned = curvature.distance ? s.depth * s.excess() : 0.0;
   addBlocks(s.count, s.node, hessian, [&](int i, int j) -> Mat3 {
     return s.stiffness_area *
            (c[i] * c[j] * slide - turned * b[i].dot(b[j]) * gg -
-            s.depth * (c[i] * b[j] * g.transpose() + c[j] * g * b[i].transpose()));
+            s.excess() * (c[i] * b[j] * g.transpose() + c[j] * g * b[i].transpose()));
   });
 }
 

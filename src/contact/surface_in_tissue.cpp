@@ -278,8 +278,9 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field,
   sample.side = intruder_.side;
   sample.area = intruder_.share * place.area;
   sample.stiffness_area = stiffness_ * (*elements_)[place.element].per_area * sample.area;
-  sample.force = sample.stiffness_area * sample.depth;
-  return sample.depth > 0.0;
+  sample.allowed = allowance_;
+  sample.force = sample.stiffness_area * sample.excess();
+  return sample.excess() > 0.0;
 }
 
 Vec3 SurfaceInTissue::edgeVector(Index edge) const

@@ -31,6 +31,7 @@ class SurfaceInTissue
   SurfaceInTissue(const TissueBody& host, const Intruder& intruder, const ContactOptions& options);
 
   void setStiffness(double pa_per_m) { stiffness_ = pa_per_m; }
+  void setAllowance(double depth_m) { allowance_ = depth_m; }
 
   /**
    * Finds the tets that hold points or parts of edges.
@@ -83,7 +84,7 @@ class SurfaceInTissue
   TissueBody host_;
   Intruder intruder_;
   bool segments_, closest_feature_;
-  double stiffness_;
+  double stiffness_, allowance_ = 0.0;
   TissueDepth depth_;
   const std::vector<SurfaceElement>* elements_ = nullptr;
   const Points* nodes_ = nullptr;

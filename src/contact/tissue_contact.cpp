@@ -203,6 +203,15 @@ void TissueContact::setStiffness(double pa_per_m)
   }
 }
 
+void TissueContact::setAllowance(double depth_m)
+{
+  forgetSamples();
+  for (TissueInTissue& side : parts_->sides)
+  {
+    side.setAllowance(depth_m);
+  }
+}
+
 bool TissueContact::active() const
 {
   return std::any_of(parts_->sides.begin(), parts_->sides.end(),

@@ -22,6 +22,7 @@ class TissueInTissue
                  const ContactOptions& options);
 
   void setStiffness(double pa_per_m) { surface_.setStiffness(pa_per_m); }
+  void setAllowance(double depth_m) { surface_.setAllowance(depth_m); }
   HostField& field() { return field_; }
 
   /** Positions of each body alone, m, when a step begins, and where they are expected to go. */

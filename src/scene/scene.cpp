@@ -47,6 +47,10 @@ void Scene::Impl::resetWorld()
   for (Contact& contact : contacts_)
   {
     contact.term->forget();
+    if (contact.with_tissue != nullptr)
+    {
+      allow(contact.start_depth_m, contact);
+    }
   }
 }
 

@@ -62,6 +62,7 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   }
   saved_.resize(kMaxHalvings + 1);
   refuseDeepStart();
+  findDeepStarts();
   showObstacles();
 }
 

@@ -91,6 +91,8 @@ class Scene::Impl
     double size_m = 0.0;   ///< radius of a ball that fits in the tool or a cell, or in both tissues
     bool refresh = true;
     std::optional<double> max_penetration_m;
+    double start_depth_m = 0.0;  ///< two tissues start in each other by, if that is deep
+    double allowance_m = 0.0;    ///< what of it presses nothing yet
   };
   /** How a group of tissues moves as a whole. */
   struct Motion
@@ -117,6 +119,9 @@ class Scene::Impl
   void addObstacleContact(const ContactConfig& config, Contact& contact);
   void showObstacles();
   void refuseDeepStart(const Contact& contact);
+  void findDeepStarts();
+  void allow(double depth_m, Contact& contact);
+  void easeDeepStarts();
   std::string itemOf(std::size_t tissue) const;
   double stiffnessAgainstRigid(const Contact& contact) const;
   bool isFine(std::size_t tissue, double radius_m) const;

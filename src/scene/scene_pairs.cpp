@@ -12,6 +12,10 @@ namespace
 /** A tool may start touching, but not with more of its inner radius than this inside tissue. */
 constexpr double kDeepStart = 0.5;
 
+/** Tissues that start deeper in each other, in Contact::size_m, are pushed apart at a speed of so
+ * many of them a second. */
+constexpr double kDeepPair = 0.02, kEasing = 1.0;
+
 /** The most parts that contact cuts edges of a membrane into. */
 constexpr double kMostCuts = 64.0;
 
@@ -215,6 +219,42 @@ std::unique_ptr<DistanceField> Scene::Impl::fieldOf(std::size_t tissue) const
              ? nullptr
              : makeDistanceField(config_.tissues[tissue].field,
                                  {&tissue_info_[tissue].surface, &tissues_[tissue].neighbours});
+}
+
+/** Tissues may start in each other: they are allowed it for a while. */
+void Scene::Impl::findDeepStarts()
+{
+  for (Contact& contact : contacts_)
+  {
+    if (contact.with_tissue == nullptr || contact.tissue == contact.other)
+    {
+      continue;
+    }
+    contact.with_tissue->beginStep(x_, x_, true);
+    const double deepest = contact.term->active() ? contact.term->deepest(x_) : 0.0;
+    contact.start_depth_m = deepest > kDeepPair * contact.size_m ? deepest : 0.0;
+    allow(contact.start_depth_m, contact);
+    contact.term->forget();
+  }
+}
+
+void Scene::Impl::allow(double depth_m, Contact& contact)
+{
+  contact.allowance_m = depth_m;
+  contact.with_tissue->setAllowance(depth_m);
+}
+
+/** Pushes tissues that started in each other a little farther apart. */
+void Scene::Impl::easeDeepStarts()
+{
+  for (Contact& contact : contacts_)
+  {
+    if (contact.allowance_m > 0.0)
+    {
+      const double by = kEasing * contact.size_m * config_.time_step_s;
+      allow(std::max(0.0, contact.allowance_m - by), contact);
+    }
+  }
 }
 
 void Scene::Impl::refuseDeepStart()

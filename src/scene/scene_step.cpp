@@ -35,6 +35,7 @@ const StepReport& Scene::Impl::step()
   const bool tools_went_alone = report_.held;  // their way back is none through tissue
   const double start_s = report_.time_s;
   aimTools();
+  easeDeepStarts();
   report_ = StepReport();
   report_.step = number;
   report_.time_s = start_s;

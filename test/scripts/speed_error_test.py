@@ -46,11 +46,19 @@ class SpeedError(unittest.TestCase):
             with open(os.path.join(folder, "detection.csv")) as stream:
                 rows = list(csv.DictReader(stream))
             self.assertEqual(list(rows[0]), ["scene", "tets", "edges", "method", "found", "touching", "missed",
-                                             "find_ms", "ms"])
+                                             "find_ms", "ms", "mean_ms", "worst_ms"])
             self.assertGreaterEqual(len({row["scene"] for row in rows}), 4)
             for row in rows:
                 self.assertIn(row["missed"], ["0"] if row["method"][:3] != "FCL" else [""], row)
                 self.assertEqual(int(row["touching"]) > 0, row["scene"].startswith("overlapping"), row)
+
+            with open(os.path.join(folder, "contact_cost.csv")) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual({(row["case"], row["contact"]) for row in rows},
+                             {("overlapping", "segment"), ("overlapping", "point"),
+                              ("apart", "segment"), ("apart", "point"), ("apart", "none")})
+            for row in rows:
+                self.assertEqual(int(row["samples"]) > 0, row["case"] == "overlapping", row)
 
     def test_bad_calls(self):
         for arguments in ([], ["field"], ["magic", "--out", "x"], ["field", "--out"]):

@@ -15,9 +15,10 @@ namespace soft_tissue
  * up to half of the touching surface, and energies and forces are plain sums over all samples.
  * Where only one direction is taken, as against an obstacle, its areas count whole.
  *
- * The force is kappa area depth. Where an edge is clipped at a surface, the quadrature points move
- * with that surface; the derivative of that is one more sample at the clip point, with a force
- * (small, of either sign) but without depth and area.
+ * The force is kappa area depth; while bodies that began in each other are pushed apart, what of
+ * the depth they are still allowed counts neither in it nor in the energy. Where an edge is clipped
+ * at a surface, the quadrature points move with that surface; the derivative of that is one more
+ * sample at the clip point, with a force (small, of either sign) but without depth and area.
  */
 struct ContactSample
 {
@@ -26,6 +27,7 @@ struct ContactSample
   Vec3 position = Vec3::Zero();         ///< m, world
   Vec3 gradient = Vec3::Zero();         ///< of d by the intruding point; unit for a true distance
   double depth = 0.0;                   ///< m, >= 0
+  double allowed = 0.0;                 ///< m of it that press nothing, see excess()
   double stiffness_area = 0.0;          ///< kappa times area, N/m
   double area = 0.0;                    ///< m^2, its share of the surface
   double force = 0.0;                   ///< N, against the gradient on the intruder
@@ -37,6 +39,9 @@ struct ContactSample
   int side = 0;
   Index host = -1;     ///< tet of the host that the point is in; -1: the host is a tool
   Index element = -1;  ///< point or edge of the intruding surface
+
+  /** Depth that presses, m. */
+  double excess() const { return depth - allowed; }
 
   /** Force on the first of the pair, N, world; it acts at `position`. */
   Vec3 forceOnFirst() const { return -side * force * gradient; }

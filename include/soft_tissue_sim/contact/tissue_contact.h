@@ -42,6 +42,10 @@ class TissueContact : public ContactTerm
 
   bool active() const override;
 
+  /** Depth that presses nothing from now on, m: lowered step by step it pushes bodies that began in
+   * each other apart as slowly as one likes. */
+  void setAllowance(double depth_m);
+
  private:
   void collect(std::vector<ContactSample>& samples) override;
   DepthCurvature curvature(const ContactSample& sample) const override;

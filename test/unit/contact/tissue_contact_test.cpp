@@ -12,7 +12,6 @@ namespace soft_tissue::test
 namespace
 {
 
-
 /** Two blocks of different meshes, the second on top of the first and a millimetre in it. */
 TissuePair blocks(const ContactOptions& options, double deep = 0.001)
 {
@@ -74,6 +73,38 @@ TEST(TissueContact, HessianIsTheSecondDerivative)
     const double most = options.closest_feature ? 0.4 : 0.6;
     EXPECT_LT(error, options.segments ? most * left_out : 1e-6) << nameOf(options);
     EXPECT_GT(smallestEigenvalue(linear), -1e-12 * linear.norm()) << nameOf(options);
+  }
+}
+
+// Where only a part of the depth presses. Pieces of edges with interpolated depth end at tets,
+// where what is left of it is not zero: their gradient is off by what the rule is.
+TEST(TissueContact, DerivativesAreThoseOfTheDepthThatIsNotAllowed)
+{
+  for (const ContactOptions& options : contactModels(1e6))
+  {
+    TissuePair pair = blocks(options);
+    const Points start = shaken(pair.x, 0.0004, 41);
+    pair.contact->setAllowance(0.0003);
+    pair.contact->beginStep(start, start, true);
+    const Points x = shaken(start, 0.0002, 42);
+    for (const ContactSample& sample : pair.contact->samples(x))
+    {
+      if (sample.stiffness_area > 0.0)
+      {
+        EXPECT_NEAR(sample.force, sample.stiffness_area * (sample.depth - 0.0003), 1e-15);
+        EXPECT_GT(sample.depth, 0.0003);
+      }
+    }
+    RandomGeometry random(43);
+    const double off = gradientError(*pair.contact, x, random);
+    std::printf("  %s: off its difference by at most %.1e\n", nameOf(options).c_str(), off);
+    EXPECT_LT(off, options.segments && !options.closest_feature ? 0.05 : 1e-6) << nameOf(options);
+    if (!options.segments)
+    {
+      const Eigen::MatrixXd difference = centralDifference(*pair.contact, x);
+      const Eigen::MatrixXd exact = hessianOf(*pair.contact, x, pair.neighbours, Curvature::exact);
+      EXPECT_LT((difference - exact).norm(), 1e-6 * difference.norm()) << nameOf(options);
+    }
   }
 }
 
