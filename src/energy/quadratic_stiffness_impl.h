@@ -40,6 +40,9 @@ constexpr std::array<BlockNodes, kQuadraticTetBlocks> kQuadraticBlocks = upperBl
 /** Blocks made before they are added together: nine values of each fill whole squares of packs. */
 constexpr int kBatch = 8;
 
+/** Values of all blocks of a tet, batches filled up. */
+constexpr int kRow = 9 * ((kQuadraticTetBlocks + kBatch - 1) / kBatch * kBatch);
+
 /** Sums over the Gauss points of a few tets, a block K(k, l) of linear shape functions at a time.
  */
 class GaussSums
@@ -151,18 +154,18 @@ void quadraticStiffness(const TetGroups& groups, Index begin, Index end, const d
       materialBlocks<Material, kProjected>(at, sums.table(k));
     });
     sums.finish();
-    const Index* place =
-        positions + kTetLanes * kQuadraticTetBlocks * static_cast<long>(group) + lane;
-    Pack out[9 * kBatch] = {};
+    alignas(64) double rows[kLanes][kRow];
     for (int first = 0; first < kQuadraticTetBlocks; first += kBatch)
     {
-      const int count = first + kBatch < kQuadraticTetBlocks ? kBatch : kQuadraticTetBlocks - first;
-      for (int k = 0; k < count; ++k)
+      Pack out[9 * kBatch] = {};
+      for (int k = 0; k < kBatch && first + k < kQuadraticTetBlocks; ++k)
       {
         sums.block(kQuadraticBlocks[first + k], out + 9 * k);
       }
-      addBlocks<kBatch>(out, place + kTetLanes * first, count, values);
+      transposeInto<9 * kBatch>(out, rows, 9 * first);
     }
+    const long place = kTetLanes * kQuadraticTetBlocks * static_cast<long>(group) + lane;
+    addBlocks<kQuadraticTetBlocks>(rows, positions + place, values);
   });
 }
 

@@ -82,18 +82,15 @@ inline void linearBlocks(const Block& blockOf, Pack* out)
   storeBlock(corner, out);
 }
 
-/** Adds the blocks at value, nine packs each, of a few tets to those of the matrix; uses value up.
- */
-template <int kBlockCount>
-inline void addBlocks(Pack* value, const Index* positions, int count, double* values)
+/** Adds blocks of a few tets, nine values each in rows[lane], to those of the matrix: a tet after
+ * the other, so that the order does not depend on the number of lanes. */
+template <int kBlockCount, std::size_t kRow>
+inline void addBlocks(const double (*rows)[kRow], const Index* positions, double* values)
 {
-  constexpr int kSize = 9 * kBlockCount;
-  alignas(64) double rows[kLanes][padded(kSize)];
-  transpose<kSize>(value, rows);
   for (int lane = 0; lane < kLanes; ++lane)
   {
     const Index* position = positions + lane;
-    for (int block = 0; block < count; ++block, position += kTetLanes)
+    for (int block = 0; block < kBlockCount; ++block, position += kTetLanes)
     {
       addBlock(rows[lane] + 9 * block, values + 9 * static_cast<long>(*position));
     }

@@ -123,18 +123,25 @@ inline void transposeSquare(Pack* v)
   }
 }
 
-/** rows[lane][k] = value[k] of each lane; value holds padded(kCount) packs and is used up. */
-template <int kCount>
-inline void transpose(Pack* value, double (*rows)[padded(kCount)])
+/** rows[lane][first + k] = value[k] of each lane; value holds padded(kCount) packs and is used up.
+ */
+template <int kCount, std::size_t kRow>
+inline void transposeInto(Pack* value, double (*rows)[kRow], int first)
 {
   for (int k = 0; k < kCount; k += kLanes)
   {
     transposeSquare(value + k);
     for (int lane = 0; lane < kLanes; ++lane)
     {
-      store(rows[lane] + k, value[k + lane]);
+      store(rows[lane] + first + k, value[k + lane]);
     }
   }
+}
+
+template <int kCount>
+inline void transpose(Pack* value, double (*rows)[padded(kCount)])
+{
+  transposeInto<kCount>(value, rows, 0);
 }
 
 /** Adds the forces g[3 node + axis] of a few tets to their nodes; uses g up. */

@@ -21,8 +21,10 @@ void tetStiffness(const TetGroups& groups, Index begin, Index end, const double*
     {
       out[k] = Pack{};
     }
-    addBlocks<kTetBlocks>(out, positions + kTetLanes * kTetBlocks * static_cast<long>(group) + lane,
-                          kTetBlocks, values);
+    alignas(64) double rows[kLanes][padded(kSize)];
+    transpose<kSize>(out, rows);
+    addBlocks<kTetBlocks>(
+        rows, positions + kTetLanes * kTetBlocks * static_cast<long>(group) + lane, values);
   });
 }
 

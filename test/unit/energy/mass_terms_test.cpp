@@ -64,16 +64,7 @@ TEST(QuadraticMasses, HaveMassAndCentreOfTheBody)
     first += masses[i] * mesh.nodes[i];
   }
   EXPECT_NEAR(mass, 6000.0, 1e-9);
-  EXPECT_LT((first / mass - Vec3(1.5, 1.0, 0.5)).norm(), 1e-3);  // the bump moves mass about
-  TetMesh vertices = vertexTets(mesh);
-  std::vector<double> linear(mesh.nodes.size(), 0.0);
-  addLumpedMasses(vertices, densities, 0, linear);
-  Vec3 expected = Vec3::Zero();
-  for (std::size_t i = 0; i < linear.size(); ++i)
-  {
-    expected += linear[i] * mesh.nodes[i];
-  }
-  EXPECT_LT((first - expected).norm(), 1e-9);
+  EXPECT_LT((first / mass - Vec3(1.5, 1.0, 0.5)).norm(), 1e-12);
 }
 
 TEST(QuadraticMasses, LoadsDoTheWorkOfAUniformForceInEveryQuadraticDisplacement)
