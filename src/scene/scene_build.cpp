@@ -40,7 +40,7 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   v_.resize(x_.size());
   acceleration_.resize(x_.size());
   inertia_ = std::make_unique<Inertia>(masses_);
-  gravity_ = std::make_unique<Gravity>(masses_, config_.gravity_m_per_s2);
+  gravity_ = std::make_unique<Gravity>(load_masses_, config_.gravity_m_per_s2);
   makeSolver();
   setOff();
   tools_.reserve(config_.tools.size());
@@ -66,6 +66,14 @@ void Scene::Impl::addTissue(std::size_t index)
   const TissueConfig& tissue_config = config_.tissues[index];
   TissueModel model = makeTissue(tissue_config, item(config_, "tissues", index));
   Tissue& tissue = tissues_[index];
+  tissue.first_node = static_cast<Index>(x_.size());
+  tissue.node_count = static_cast<Index>(model.info.rest.nodes.size());
+  tissue.neighbours = elementNeighbours(model);
+  tissue.elasticity = makeElasticity(model, tissue_config.material.model, tissue.first_node);
+  x_.insert(x_.end(), model.info.rest.nodes.begin(), model.info.rest.nodes.end());
+  masses_.resize(x_.size(), 0.0);
+  load_masses_.resize(x_.size(), 0.0);
+  addMasses(model, tissue.first_node, masses_, load_masses_);
   tissue_info_.push_back(std::move(model.info));
   const TissueInfo& info = tissue_info_.back();
   if (config_.solver.stepper == Stepper::quasi_static && info.fixed_nodes.empty() &&
@@ -74,7 +82,6 @@ void Scene::Impl::addTissue(std::size_t index)
     throw Error(item(config_, "tissues", index) +
                 ".fixed is empty: a quasi-static tissue needs a fixed region");
   }
-  tissue.first_node = static_cast<Index>(x_.size());
   for (std::size_t k = 0; k < model.moved.size(); ++k)
   {
     MovedNodes moved;
@@ -93,13 +100,6 @@ void Scene::Impl::addTissue(std::size_t index)
     }
     moved_.push_back(std::move(moved));
   }
-  tissue.node_count = static_cast<Index>(info.rest.nodes.size());
-  tissue.neighbours = nodeNeighbours(tissue.node_count, info.rest.tets);
-  tissue.elasticity = std::make_unique<TetElasticity>(info.rest, tissue_config.material.model,
-                                                      model.stiffness, tissue.first_node);
-  x_.insert(x_.end(), info.rest.nodes.begin(), info.rest.nodes.end());
-  masses_.resize(x_.size(), 0.0);
-  addLumpedMasses(info.rest, model.densities, tissue.first_node, masses_);
 }
 
 void Scene::Impl::makeSolver()

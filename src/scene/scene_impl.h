@@ -9,8 +9,8 @@
 #include "soft_tissue_sim/contact/obstacle_contact.h"
 #include "soft_tissue_sim/contact/tissue_contact.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
+#include "soft_tissue_sim/energy/elasticity.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
-#include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/scene/scene.h"
 #include "soft_tissue_sim/solver/newton.h"
 
@@ -55,8 +55,8 @@ class Scene::Impl
   {
     Index first_node = 0;
     Index node_count = 0;
-    Adjacency neighbours;
-    std::unique_ptr<TetElasticity> elasticity;
+    Adjacency neighbours;  ///< nodes of common elements
+    std::unique_ptr<Elasticity> elasticity;
   };
   /** Nodes that key frames move. */
   struct MovedNodes
@@ -148,6 +148,7 @@ class Scene::Impl
   std::vector<char> held_;          ///< per tissue: something outside holds it or its group
   Points spin_;                     ///< per free group: its spin when the step began
   std::vector<double> masses_;
+  std::vector<double> load_masses_;  ///< what gravity pulls at
   std::unique_ptr<Inertia> inertia_;
   std::unique_ptr<Gravity> gravity_;
   std::unique_ptr<NewtonSolver> newton_;

@@ -129,6 +129,11 @@ const Section<TissueConfig>& tissueSection()
               "name", &TissueConfig::name, name(),
               "Its ROS namespace; unlike that of any other tissue or tool, and not tissue_pairs.")
           .required("mesh", &TissueConfig::mesh, mapOf(meshSection()), "Its rest shape.")
+          .optional(
+              "element", &TissueConfig::element,
+              choice<ElementKind>({{"tet4", ElementKind::tet4}, {"tet10", ElementKind::tet10}}),
+              "tet4: linear; tet10: quadratic, with a node more in the middle of each edge of "
+              "the mesh. One of those does what dozens of linear ones do.")
           .optional("pose", &TissueConfig::pose, mapOf(poseSection()),
                     "Where the mesh file's frame stands in the world at rest.")
           .optional("velocity_m_per_s", &TissueConfig::velocity_m_per_s, vectorOfNorm(1000.0),
@@ -142,7 +147,6 @@ const Section<TissueConfig>& tissueSection()
                     "Where it is held and moved.")
           .optional("field", &TissueConfig::field, mapOf(fieldSection()),
                     "Its distance field; marched only if the tissue has a contact.")
-          .notAvailable("element", "Quadratic and locking-free elements.")
           .finally(checkRegions);
   return section;
 }

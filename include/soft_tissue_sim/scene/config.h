@@ -88,10 +88,17 @@ struct FieldConfig
   FieldRefresh refresh = FieldRefresh::lazy;
 };
 
+enum class ElementKind
+{
+  tet4,   ///< linear tets
+  tet10,  ///< quadratic tets, with a node in the middle of each edge of the mesh
+};
+
 struct TissueConfig
 {
   std::string name;
   MeshConfig mesh;
+  ElementKind element = ElementKind::tet4;
   PoseConfig pose;
   Vec3 velocity_m_per_s = Vec3::Zero();  ///< it starts with, world
   MaterialConfig material;

@@ -73,7 +73,7 @@ struct Wrench
 struct TissueInfo
 {
   std::string name;
-  TetMesh rest;  ///< rest state, world frame
+  TetMesh rest;  ///< rest state, world frame; quadratic tets as subdivided() cuts them
   BoundarySurface surface;
   std::vector<Index> fixed_nodes;
   std::vector<std::string> remarks;  ///< what reading the mesh turned, left out or found odd

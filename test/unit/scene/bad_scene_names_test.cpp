@@ -71,6 +71,8 @@ std::vector<BadScene> badNames()
        "solver.stepper = rk4, must be one of implicit_euler, quasi_static"},
       {"response: segment", "response: [segment]",
        "contacts[0].response = [segment], must be one of point, segment"},
+      {"    field: {method: cffm}", "    element: tet20",
+       "tissues[0].element = tet20, must be one of tet4, tet10"},
       {"{method: cffm}", "{method: magic}",
        "tissues[0].field.method = magic, must be one of exact_marching, cffm, cpfm, "
        "grid"},
@@ -143,7 +145,6 @@ std::vector<BadScene> notAvailable()
       {"outputs:", "membranes: [{name: skin}]\noutputs:", "membranes: " NOT_AVAILABLE},
       {"outputs:", "obstacles: [{name: table, octomap: {topic: octomap_in}}]\noutputs:",
        "obstacles[0].octomap.topic: " NOT_AVAILABLE},
-      {"    field: {method: cffm}", "    element: tet10", "tissues[0].element: " NOT_AVAILABLE},
       {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
       {"response: segment", "response: auto",
        "contacts[0].response = auto, " NOT_AVAILABLE "; must be point, segment"},
