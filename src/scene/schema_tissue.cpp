@@ -132,8 +132,8 @@ const Section<TissueConfig>& tissueSection()
           .optional(
               "element", &TissueConfig::element,
               choice<ElementKind>({{"tet4", ElementKind::tet4}, {"tet10", ElementKind::tet10}}),
-              "tet4: linear; tet10: quadratic, with a node more in the middle of each edge of "
-              "the mesh. One of those does what dozens of linear ones do.")
+              "tet4: linear; tet10: quadratic, with a node in the middle of each edge of the "
+              "mesh as well.")
           .optional("pose", &TissueConfig::pose, mapOf(poseSection()),
                     "Where the mesh file's frame stands in the world at rest.")
           .optional("velocity_m_per_s", &TissueConfig::velocity_m_per_s, vectorOfNorm(1000.0),

@@ -105,7 +105,8 @@ std::vector<BadScene> badKeys()
 {
   return {
       {"    material: {young_modulus_pa: 3000", "    materail: {young_modulus_pa: 3000",
-       "tissues[0].materail: unknown key, did you mean 'material'? Known: name, mesh, pose, "
+       "tissues[0].materail: unknown key, did you mean 'material'? Known: name, mesh, element, "
+       "pose, "
        "velocity_m_per_s, material, regions, fixed, keyframes, field"},
       {"young_modulus_pa: 3000", "young_modulus_kpa: 3",
        "tissues[0].material.young_modulus_kpa: unknown key, did you mean 'young_modulus_pa'? "

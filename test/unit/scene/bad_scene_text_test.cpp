@@ -70,7 +70,7 @@ TEST_F(BadSceneTextTest, NoTissue)
             "DIR/scene.yaml: tissues: is an empty list, must have at least 1");
   EXPECT_EQ(complaint("tissues:\n"), "DIR/scene.yaml: tissues = nothing, must be a list");
   EXPECT_EQ(complaint("tissues: [liver]\n"),
-            "DIR/scene.yaml: tissues[0] = liver, must be a map of keys: name, mesh, pose, "
+            "DIR/scene.yaml: tissues[0] = liver, must be a map of keys: name, mesh, element, pose, "
             "velocity_m_per_s, "
             "material, regions, fixed, keyframes, field");
 }
