@@ -11,6 +11,8 @@
  */
 #pragma once
 
+#include <algorithm>
+
 #include "quadratic_lanes.h"
 #include "soft_tissue_sim/mesh/quadratic_tets.h"
 #include "stiffness_blocks.h"
@@ -73,21 +75,17 @@ class GaussSums
       return;
     }
     const int* to = kTetEdges[b - 4];
-    for (int k = 0; k < 9; ++k)
-    {
-      out[k] = Pack{};
-    }
     if (a < 4)
     {
-      addVertexEdge(a, to[0], to[1], out);
-      addVertexEdge(a, to[1], to[0], out);
+      vertexEdge<false>(a, to[0], to[1], out);
+      vertexEdge<true>(a, to[1], to[0], out);
       return;
     }
     const int* from = kTetEdges[a - 4];
-    addEdges(from[0], to[0], from[1], to[1], out);
-    addEdges(from[0], to[1], from[1], to[0], out);
-    addEdges(from[1], to[0], from[0], to[1], out);
-    addEdges(from[1], to[1], from[0], to[0], out);
+    edges<false>(from[0], to[0], from[1], to[1], out);
+    edges<true>(from[0], to[1], from[1], to[0], out);
+    edges<true>(from[1], to[0], from[0], to[1], out);
+    edges<true>(from[1], to[1], from[0], to[0], out);
   }
 
  private:
@@ -110,7 +108,8 @@ class GaussSums
   }
 
   /** (4 L_m - 1) 4 L_n K(m, l) */
-  void addVertexEdge(int m, int n, int l, Pack* out) const
+  template <bool kAdd>
+  void vertexEdge(int m, int n, int l, Pack* out) const
   {
     const int* order = kOrder[m > l];
     const Pack* s = all_ + kStart[m][l];
@@ -119,13 +118,15 @@ class GaussSums
     for (int k = 0; k < 9; ++k)
     {
       const int from = order[k];
-      out[k] += m == n ? (1.0 + 3.0 * kRatio) * um[from] - kRatio * s[from]
-                       : um[from] - kRatio * (s[from] + un[from]);
+      const Pack value = m == n ? (1.0 + 3.0 * kRatio) * um[from] - kRatio * s[from]
+                                : um[from] - kRatio * (s[from] + un[from]);
+      out[k] = kAdd ? out[k] + value : value;
     }
   }
 
   /** 16 L_m L_n K(k, l) */
-  void addEdges(int m, int n, int i, int l, Pack* out) const
+  template <bool kAdd>
+  void edges(int m, int n, int i, int l, Pack* out) const
   {
     const int* order = kOrder[i > l];
     const Pack* s = all_ + kStart[i][l];
@@ -134,8 +135,9 @@ class GaussSums
     for (int k = 0; k < 9; ++k)
     {
       const int from = order[k];
-      out[k] +=
+      const Pack value =
           m == n ? s[from] + (2.0 + 4.0 * kRatio) * um[from] : s[from] + (um[from] + un[from]);
+      out[k] = kAdd ? out[k] + value : value;
     }
   }
 
@@ -143,11 +145,29 @@ class GaussSums
   Pack all_[kTable];
 };
 
+/** Asks for the blocks of a few tets while there is something else to do. */
+template <int kBlockCount>
+inline void prefetchBlocks(const Index* positions, const double* values)
+{
+  for (int block = 0; block < kBlockCount; ++block, positions += kTetLanes)
+  {
+    for (int lane = 0; lane < kLanes; ++lane)
+    {
+      const double* at = values + 9 * static_cast<long>(positions[lane]);
+      __builtin_prefetch(at, 1);
+      __builtin_prefetch(at + 8, 1);
+    }
+  }
+}
+
 template <typename Material, bool kProjected>
 void quadraticStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
                         const Index* positions, double* values)
 {
   forQuadraticLanes(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
+    const Index* place =
+        positions + kTetLanes * kQuadraticTetBlocks * static_cast<long>(group) + lane;
+    prefetchBlocks<kQuadraticTetBlocks>(place, values);
     GaussSums sums;
     t.at.volume *= 16.0 * kFar * kNear;
     forGaussPoints(t, [&](int k, const Lanes& at) {
@@ -157,15 +177,16 @@ void quadraticStiffness(const TetGroups& groups, Index begin, Index end, const d
     alignas(64) double rows[kLanes][kRow];
     for (int first = 0; first < kQuadraticTetBlocks; first += kBatch)
     {
-      Pack out[9 * kBatch] = {};
-      for (int k = 0; k < kBatch && first + k < kQuadraticTetBlocks; ++k)
+      Pack out[9 * kBatch];
+      for (int k = 0; k < kBatch; ++k)
       {
-        sums.block(kQuadraticBlocks[first + k], out + 9 * k);
+        // The last batch is filled up with what nobody reads.
+        const int block = std::min(first + k, kQuadraticTetBlocks - 1);
+        sums.block(kQuadraticBlocks[block], out + 9 * k);
       }
       transposeInto<9 * kBatch>(out, rows, 9 * first);
     }
-    const long place = kTetLanes * kQuadraticTetBlocks * static_cast<long>(group) + lane;
-    addBlocks<kQuadraticTetBlocks>(rows, positions + place, values);
+    addBlocks<kQuadraticTetBlocks>(rows, place, values);
   });
 }
 
