@@ -118,7 +118,7 @@ void studyContact(const std::string& folder, bool quick)
       mesh.element = ElementKind::tet10;
       mesh.response = response;
       mesh.stiffness = kAutoStiffness * hertz.contactRadius() / hertz.radius_m;
-      table.run("mesh by mesh, tet10", hertz, mesh);
+      table.run("mesh by mesh tet10", hertz, mesh);
     }
   }
 }
