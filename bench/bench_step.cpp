@@ -20,9 +20,15 @@ std::string sourceFolder(const std::string&)
   return SOURCE_DIR;
 }
 
-SceneConfig loadScene(const std::string& name)
+/** @param quadratic_mesh  of quadratic tets, in place of the scene's own; empty: that */
+SceneConfig loadScene(const std::string& name, const std::string& quadratic_mesh)
 {
   SceneConfig config = loadSceneConfig(SOURCE_DIR "/config/scenes/" + name, &sourceFolder);
+  if (!quadratic_mesh.empty())
+  {
+    config.tissues.at(0).mesh.file = SOURCE_DIR "/config/meshes/" + quadratic_mesh;
+    config.tissues.at(0).element = ElementKind::tet10;
+  }
   config.tools.at(0).initial_pose.position_m = kStart;
   return config;
 }
@@ -31,7 +37,8 @@ SceneConfig loadScene(const std::string& name)
 class Press
 {
  public:
-  explicit Press(const std::string& name) : scene_(loadScene(name))
+  Press(const std::string& name, const std::string& quadratic_mesh)
+      : scene_(loadScene(name, quadratic_mesh))
   {
     double z = kStart.z();
     while (stepTo(z).contacts == 0)
@@ -47,7 +54,7 @@ class Press
   }
 
   double timeStep() const { return scene_.config().time_step_s; }
-  std::size_t tets() const { return scene_.tissues().at(0).rest.tets.size(); }
+  const TetMesh& rest() const { return scene_.tissues().at(0).rest; }
 
   /** One step of a steady up and down between the two depths. */
   const StepReport& step()
@@ -76,7 +83,8 @@ void report(benchmark::State& state, const Press& press, const StepReport& sum)
   const auto mean = [](double total) {
     return benchmark::Counter(total, benchmark::Counter::kAvgIterations);
   };
-  state.counters["tets"] = static_cast<double>(press.tets());
+  state.counters["tets"] = static_cast<double>(press.rest().tets.size());
+  state.counters["nodes"] = static_cast<double>(press.rest().nodes.size());
   state.counters["dt_ms"] = 1e3 * press.timeStep();
   state.counters["real_time_factor"] =
       benchmark::Counter(press.timeStep(), benchmark::Counter::kIsIterationInvariantRate);
@@ -90,10 +98,11 @@ void report(benchmark::State& state, const Press& press, const StepReport& sum)
   state.counters["contacts"] = mean(sum.contacts);
 }
 
-void contactStep(benchmark::State& state, const std::string& scene)
+void contactStep(benchmark::State& state, const std::string& scene,
+                 const std::string& quadratic_mesh)
 {
   setThreadCount(static_cast<int>(state.range(0)));
-  Press press(scene);
+  Press press(scene, quadratic_mesh);
   StepReport sum;
   for (auto _ : state)
   {
@@ -118,11 +127,16 @@ void measure(benchmark::internal::Benchmark* bench, double time_step_s)
   bench->Iterations(std::lround(10.0 * kPeriod / time_step_s));
 }
 
-BENCHMARK_CAPTURE(contactStep, lobe_5k, "palpation.yaml")->Apply([](auto* bench) {
+BENCHMARK_CAPTURE(contactStep, lobe_5k, "palpation.yaml", "")->Apply([](auto* bench) {
   measure(bench, 0.005);
 });
-BENCHMARK_CAPTURE(contactStep, lobe_20k, "palpation_20k.yaml")->Apply([](auto* bench) {
+BENCHMARK_CAPTURE(contactStep, lobe_20k, "palpation_20k.yaml", "")->Apply([](auto* bench) {
   measure(bench, 0.01);
 });
+// Of quadratic tets.
+BENCHMARK_CAPTURE(contactStep, lobe_1k_tet10, "palpation.yaml", "lobe_1k.msh")
+    ->Apply([](auto* bench) { measure(bench, 0.005); });
+BENCHMARK_CAPTURE(contactStep, lobe_5k_tet10, "palpation_20k.yaml", "lobe_5k.msh")
+    ->Apply([](auto* bench) { measure(bench, 0.01); });
 }  // namespace
 }  // namespace soft_tissue

@@ -112,6 +112,16 @@ void studyContact(const std::string& folder, bool quick)
       mesh.stiffness = kAutoStiffness * hertz.contactRadius() / hertz.radius_m;
       table.run("mesh by mesh", hertz, mesh);
     }
+    // The same numbers of nodes in quadratic tets.
+    for (const int cells : quick ? std::vector<int>{2} : std::vector<int>{2, 3, 5, 8})
+    {
+      IndentationMesh mesh;
+      mesh.cells = cells;
+      mesh.element = ElementKind::tet10;
+      mesh.response = response;
+      mesh.stiffness = kAutoStiffness * hertz.contactRadius() / hertz.radius_m;
+      table.run("mesh by mesh tet10", hertz, mesh);
+    }
   }
 }
 

@@ -72,6 +72,7 @@ SceneConfig makeScene(const Indentation& problem, const IndentationMesh& mesh,
   config.solver.max_iterations = 60;
   TissueConfig tissue;
   tissue.name = "block";
+  tissue.element = mesh.element;
   tissue.mesh.file = folder + "/block.msh";
   saveGmsh(tissue.mesh.file, gradedBlock(mesh.cells, reach));
   tissue.material = {MaterialModel::neo_hookean, problem.young_modulus_pa, problem.poisson_ratio,

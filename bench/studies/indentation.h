@@ -32,7 +32,8 @@ struct Indentation
 /** How it is computed. */
 struct IndentationMesh
 {
-  int cells = 12;  ///< from the axis to each side; twice as many across, six tets each
+  int cells = 12;  ///< from the axis to each side; twice as many across, six elements each
+  ElementKind element = ElementKind::tet4;
   Response response = Response::segment;
   double stiffness = 400.0;  ///< kappa, in Young's moduli over the radius of contact
 };
@@ -40,12 +41,12 @@ struct IndentationMesh
 /** What came out. */
 struct IndentationResult
 {
-  std::size_t tets = 0, nodes = 0;
-  double element_m = 0.0;          ///< edge of a cell under the tip
-  double force = 0.0;              ///< N, along the axis
-  double across = 0.0;             ///< N, besides
-  double radius_m = 0.0;           ///< of what touches
-  double force_within_half = 0.0;  ///< N, within half of the contact radius expected
+  std::size_t tets = 0, nodes = 0;  ///< quadratic tets count as those they are cut into
+  double element_m = 0.0;           ///< edge of a cell under the tip
+  double force = 0.0;               ///< N, along the axis
+  double across = 0.0;              ///< N, besides
+  double radius_m = 0.0;            ///< of what touches
+  double force_within_half = 0.0;   ///< N, within half of the contact radius expected
   double penetration_m = 0.0;
   int newton_iterations = 0;
   bool converged = true;

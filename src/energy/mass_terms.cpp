@@ -7,7 +7,23 @@ namespace soft_tissue
 namespace
 {
 constexpr Index kGrain = 8192;
+
+/** Adds a share of each element's mass to each of its vertices, and another to each edge. */
+void addShares(const QuadraticTetMesh& rest, const std::vector<double>& densities, Index first_node,
+               double of_vertex, double of_edge, std::vector<double>& masses)
+{
+  for (std::size_t e = 0; e < rest.elements.size(); ++e)
+  {
+    const QuadraticTet& n = rest.elements[e];
+    const double volume =
+        signedVolume6(rest.nodes[n[0]], rest.nodes[n[1]], rest.nodes[n[2]], rest.nodes[n[3]]) / 6.0;
+    for (std::size_t k = 0; k < n.size(); ++k)
+    {
+      masses[first_node + n[k]] += (k < 4 ? of_vertex : of_edge) * volume * densities[e];
+    }
+  }
 }
+}  // namespace
 
 void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, Index first_node,
                      std::vector<double>& masses)
@@ -38,6 +54,18 @@ void addLumpedMasses(const TriMesh& rest, const std::vector<double>& surface_den
       masses[first_node + node] += area * surface_densities[t] / 3.0;
     }
   }
+}
+
+void addLumpedMasses(const QuadraticTetMesh& rest, const std::vector<double>& densities,
+                     Index first_node, std::vector<double>& masses)
+{
+  addShares(rest, densities, first_node, 1.0 / 36.0, 4.0 / 27.0, masses);
+}
+
+void addLoadMasses(const QuadraticTetMesh& rest, const std::vector<double>& densities,
+                   Index first_node, std::vector<double>& masses)
+{
+  addShares(rest, densities, first_node, -1.0 / 20.0, 1.0 / 5.0, masses);
 }
 
 void Inertia::beginStep(const Points& x, const Points& velocities, double step)

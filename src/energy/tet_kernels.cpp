@@ -5,15 +5,18 @@ namespace soft_tissue
 namespace kernels_baseline
 {
 const TetKernels& kernelsFor(MaterialModel model);
-}
+const TetKernels& quadraticKernelsFor(MaterialModel model);
+}  // namespace kernels_baseline
 namespace kernels_v3
 {
 const TetKernels& kernelsFor(MaterialModel model);
-}
+const TetKernels& quadraticKernelsFor(MaterialModel model);
+}  // namespace kernels_v3
 namespace kernels_v4
 {
 const TetKernels& kernelsFor(MaterialModel model);
-}
+const TetKernels& quadraticKernelsFor(MaterialModel model);
+}  // namespace kernels_v4
 
 const TetKernels& tetKernels(MaterialModel model, InstructionSet set)
 {
@@ -25,6 +28,19 @@ const TetKernels& tetKernels(MaterialModel model, InstructionSet set)
       return kernels_v3::kernelsFor(model);
     default:
       return kernels_baseline::kernelsFor(model);
+  }
+}
+
+const TetKernels& quadraticTetKernels(MaterialModel model, InstructionSet set)
+{
+  switch (set)
+  {
+    case InstructionSet::x86_64_v4:
+      return kernels_v4::quadraticKernelsFor(model);
+    case InstructionSet::x86_64_v3:
+      return kernels_v3::quadraticKernelsFor(model);
+    default:
+      return kernels_baseline::quadraticKernelsFor(model);
   }
 }
 

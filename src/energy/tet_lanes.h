@@ -21,26 +21,46 @@ struct Lanes
   Pack constants[kMaterialConstants];
 };
 
-inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const double* x)
+/** Positions of the kNodes nodes of each of a few tets: gathered[3 node + axis][lane]. */
+template <int kNodes>
+inline void gather(const TetGroups& groups, Index group, int lane, const double* x,
+                   double (*gathered)[kLanes])
 {
-  Lanes lanes;
-  const Index* nodes = groups.nodes + 32 * group + lane;
-  double gathered[12][kLanes];
-  for (int node = 0; node < 4; ++node)
+  const Index* nodes = groups.nodes + kTetLanes * kNodes * static_cast<long>(group) + lane;
+  for (int node = 0; node < kNodes; ++node)
   {
     for (int l = 0; l < kLanes; ++l)
     {
-      const double* p = x + 3 * static_cast<long>(nodes[8 * node + l]);
+      const double* p = x + 3 * static_cast<long>(nodes[kTetLanes * node + l]);
       gathered[3 * node + 0][l] = p[0];
       gathered[3 * node + 1][l] = p[1];
       gathered[3 * node + 2][l] = p[2];
     }
   }
+}
+
+/** All but F. */
+inline void loadConstants(const TetGroups& groups, Index group, int lane, Lanes& lanes)
+{
   const double* gradients = groups.gradients + 72 * static_cast<long>(group) + lane;
   for (int k = 0; k < 9; ++k)
   {
     lanes.gradients.m[k / 3][k % 3] = load(gradients + 8 * k);
   }
+  lanes.volume = load(groups.volumes + 8 * static_cast<long>(group) + lane);
+  for (int k = 0; k < kMaterialConstants; ++k)
+  {
+    lanes.constants[k] =
+        load(groups.constants + 8 * (kMaterialConstants * static_cast<long>(group) + k) + lane);
+  }
+}
+
+inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const double* x)
+{
+  Lanes lanes;
+  double gathered[12][kLanes];
+  gather<4>(groups, group, lane, x, gathered);
+  loadConstants(groups, group, lane, lanes);
   for (int i = 0; i < 3; ++i)
   {
     const Pack x0 = load(gathered[i]);
@@ -52,12 +72,6 @@ inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const dou
       lanes.f.m[i][j] = e1 * lanes.gradients.m[0][j] + e2 * lanes.gradients.m[1][j] +
                         e3 * lanes.gradients.m[2][j];
     }
-  }
-  lanes.volume = load(groups.volumes + 8 * static_cast<long>(group) + lane);
-  for (int k = 0; k < kMaterialConstants; ++k)
-  {
-    lanes.constants[k] =
-        load(groups.constants + 8 * (kMaterialConstants * static_cast<long>(group) + k) + lane);
   }
   return lanes;
 }
@@ -109,18 +123,68 @@ inline void transposeSquare(Pack* v)
   }
 }
 
-/** rows[lane][k] = value[k] of each lane; value holds padded(kCount) packs and is used up. */
-template <int kCount>
-inline void transpose(Pack* value, double (*rows)[padded(kCount)])
+/** rows[lane][first + k] = value[k] of each lane; value holds padded(kCount) packs and is used up.
+ */
+template <int kCount, std::size_t kRow>
+inline void transposeInto(Pack* value, double (*rows)[kRow], int first)
 {
   for (int k = 0; k < kCount; k += kLanes)
   {
     transposeSquare(value + k);
     for (int lane = 0; lane < kLanes; ++lane)
     {
-      store(rows[lane] + k, value[k + lane]);
+      store(rows[lane] + first + k, value[k + lane]);
     }
   }
+}
+
+template <int kCount>
+inline void transpose(Pack* value, double (*rows)[padded(kCount)])
+{
+  transposeInto<kCount>(value, rows, 0);
+}
+
+/** Adds the forces g[3 node + axis] of a few tets to their nodes; uses g up. */
+template <int kNodes>
+inline void scatter(const TetGroups& groups, Index group, int lane, Pack* g, double* gradient)
+{
+  constexpr int kSize = 3 * kNodes;
+  for (int k = kSize; k < padded(kSize); ++k)
+  {
+    g[k] = Pack{};
+  }
+  alignas(64) double rows[kLanes][padded(kSize)];
+  transpose<kSize>(g, rows);
+  const Index* nodes = groups.nodes + kTetLanes * kNodes * static_cast<long>(group) + lane;
+  for (int l = 0; l < kLanes; ++l)
+  {
+    for (int node = 0; node < kNodes; ++node)
+    {
+      double* at = gradient + 3 * static_cast<long>(nodes[kTetLanes * node + l]);
+      at[0] += rows[l][3 * node + 0];
+      at[1] += rows[l][3 * node + 1];
+      at[2] += rows[l][3 * node + 2];
+    }
+  }
+}
+
+/** Equivalent (von Mises) stress of the Cauchy stress P F^T / J; told even where J <= 0. */
+template <typename Material>
+inline Pack vonMises(const PackMat& f, const Pack* constants)
+{
+  const PackMat p = Material::stress(f, constants);
+  PackMat s;
+  for (int a = 0; a < 3; ++a)
+  {
+    for (int b = 0; b < 3; ++b)
+    {
+      s.m[a][b] = p.m[a][0] * f.m[b][0] + p.m[a][1] * f.m[b][1] + p.m[a][2] * f.m[b][2];
+    }
+  }
+  const Pack d0 = s.m[0][0] - s.m[1][1], d1 = s.m[1][1] - s.m[2][2], d2 = s.m[2][2] - s.m[0][0];
+  const Pack shear = s.m[0][1] * s.m[0][1] + s.m[1][2] * s.m[1][2] + s.m[0][2] * s.m[0][2];
+  const Pack size = sqrt(0.5 * (d0 * d0 + d1 * d1 + d2 * d2) + 3.0 * shear);
+  return size / max(abs(determinant(f)), splat(1e-12));
 }
 
 }  // namespace SOFT_TISSUE_KERNELS

@@ -1,267 +1,30 @@
 /**
- * Element stiffness: the second derivative of V psi(F) as it is, and its nearest positive
- * semi-definite matrix. Included by kernel files only (see pack.h).
+ * Stiffness of linear tets. Included by kernel files only (see pack.h).
  */
 #pragma once
 
-#include "tet_lanes.h"
+#include "stiffness_blocks.h"
 
 namespace soft_tissue
 {
 namespace SOFT_TISSUE_KERNELS
 {
-typedef double Four __attribute__((vector_size(32)));
-
-inline Four loadFour(const double* p)
-{
-  Four v;
-  std::memcpy(&v, p, sizeof(Four));
-  return v;
-}
-
-inline void addFour(double* p, Four v)
-{
-  v += loadFour(p);
-  std::memcpy(p, &v, sizeof(Four));
-}
-
-/** Adds a block of nine doubles to one of the matrix. */
-inline void addBlock(const double* block, double* to)
-{
-  addFour(to, loadFour(block));
-  addFour(to + 4, loadFour(block + 4));
-  to[8] += block[8];
-}
-
-inline void storeBlock(const PackMat& block, Pack* out)
-{
-  for (int k = 0; k < 9; ++k)
-  {
-    out[k] = block.m[k % 3][k / 3];
-  }
-}
-
-/**
- * Adds the blocks of a tet to the matrix, given those of nodes 1, 2, 3: block(a, b) for
- * 0 <= a <= b < 3 couples nodes a + 1 and b + 1. Those of node 0 follow, as a common translation
- * meets no resistance.
- */
-template <typename Block>
-inline void addStiffness(const Block& blockOf, const Index* positions, double* values)
-{
-  constexpr int kSize = 9 * kTetBlocks;
-  constexpr int kUpper[3][3] = {{0, 7, 8}, {7, 0, 9}, {8, 9, 0}};  // blocks (1, 2), (1, 3), (2, 3)
-  Pack out[padded(kSize)];
-  PackMat blocks[3][3];
-  for (int a = 0; a < 3; ++a)
-  {
-    for (int b = a; b < 3; ++b)
-    {
-      blocks[a][b] = blockOf(a, b);
-      storeBlock(blocks[a][b], out + 9 * (a == b ? a + 1 : kUpper[a][b]));
-    }
-  }
-  PackMat corner;
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      const Pack row[3] = {blocks[0][0].m[i][j] + blocks[0][1].m[i][j] + blocks[0][2].m[i][j],
-                           blocks[0][1].m[j][i] + blocks[1][1].m[i][j] + blocks[1][2].m[i][j],
-                           blocks[0][2].m[j][i] + blocks[1][2].m[j][i] + blocks[2][2].m[i][j]};
-      for (int a = 0; a < 3; ++a)
-      {
-        out[9 * (4 + a) + 3 * i + j] = -row[a];
-      }
-      corner.m[i][j] = row[0] + row[1] + row[2];
-    }
-  }
-  storeBlock(corner, out);
-  for (int k = kSize; k < padded(kSize); ++k)
-  {
-    out[k] = Pack{};
-  }
-  alignas(64) double rows[kLanes][padded(kSize)];
-  transpose<kSize>(out, rows);
-  for (int lane = 0; lane < kLanes; ++lane)
-  {
-    const Index* position = positions + lane;
-    for (int block = 0; block < kTetBlocks; ++block, position += kTetLanes)
-    {
-      addBlock(rows[lane] + 9 * block, values + 9 * static_cast<long>(*position));
-    }
-  }
-}
-
-/** Rows of a times the transposed matrix of rows b. */
-inline PackMat timesTransposed(const PackMat& a, const PackMat& b)
-{
-  PackMat r;
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      r.m[i][j] = a.m[i][0] * b.m[j][0] + a.m[i][1] * b.m[j][1] + a.m[i][2] * b.m[j][2];
-    }
-  }
-  return r;
-}
-
-/**
- * Blocks of a law of the invariants I_C and J, without singular values: with q_a = F b_a and
- * r_a = cof(F) b_a for the shape gradient b_a,
- * K_ab / V = m (b_a . b_b) I + curvature q_a q_b^T + volumetric r_a r_b^T + pressure [F (b_a x
- * b_b)] where [w]_ij = e_ijk w_k.
- */
-class InvariantBlocks
-{
- public:
-  InvariantBlocks(const Lanes& t, const InvariantStiffness& k)
-      : k_(k),
-        q_(timesTransposed(t.gradients, t.f)),
-        r_(timesTransposed(t.gradients, cofactor(t.f))),
-        metric_(timesTransposed(t.gradients, t.gradients)),
-        axis_(timesTransposed(cofactor(t.gradients), t.f))
-  {
-    k_.m *= t.volume;
-    k_.curvature *= t.volume;
-    k_.volumetric *= t.volume;
-    k_.pressure *= t.volume;
-  }
-
-  PackMat operator()(int a, int b) const
-  {
-    PackMat block;
-    for (int i = 0; i < 3; ++i)
-    {
-      const Pack q = k_.curvature * q_.m[a][i], r = k_.volumetric * r_.m[a][i];
-      for (int j = 0; j < 3; ++j)
-      {
-        block.m[i][j] = q * q_.m[b][j] + r * r_.m[b][j];
-      }
-    }
-    const Pack m = k_.m * metric_.m[a][b];
-    for (int i = 0; i < 3; ++i)
-    {
-      block.m[i][i] += m;
-    }
-    if (a != b)
-    {
-      // b_a x b_b is a row of the cofactor matrix of the gradients.
-      const int c = 3 - a - b;
-      const Pack p = (b - a + 3) % 3 == 1 ? k_.pressure : -k_.pressure;
-      for (int i = 0; i < 3; ++i)
-      {
-        const int j = (i + 1) % 3, l = (i + 2) % 3;
-        block.m[i][j] += p * axis_.m[c][l];
-        block.m[j][i] -= p * axis_.m[c][l];
-      }
-    }
-    return block;
-  }
-
- private:
-  InvariantStiffness k_;
-  PackMat q_, r_, metric_, axis_;
-};
-
-/** Blocks of any isotropic law from its principal stretches; as they are, or projected. */
 template <typename Material, bool kProjected>
-class PrincipalBlocks
-{
- public:
-  explicit PrincipalBlocks(const Lanes& t) : svd_(signedSvd(t.f))
-  {
-    const Pack zero = {};
-    PrincipalStiffness k = Material::principal(svd_.sigma, t.constants);
-    if (kProjected)
-    {
-      projectSymmetric(k.hessian);
-    }
-    for (int i = 0; i < 3; ++i)
-    {
-      const Pack even = t.volume * (kProjected ? max(k.difference[i], zero) : k.difference[i]);
-      const Pack odd = t.volume * (kProjected ? max(k.sum[i], zero) : k.sum[i]);
-      same_[i] = 0.5 * (even + odd);
-      cross_[i] = 0.5 * (even - odd);
-      for (int j = 0; j < 3; ++j)
-      {
-        hessian_.m[i][j] = t.volume * k.hessian.m[i][j];
-      }
-    }
-    for (int a = 0; a < 3; ++a)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        gradients_.m[a][j] = t.gradients.m[a][0] * svd_.v.m[0][j] +
-                             t.gradients.m[a][1] * svd_.v.m[1][j] +
-                             t.gradients.m[a][2] * svd_.v.m[2][j];
-      }
-    }
-  }
-
-  PackMat operator()(int a, int b) const
-  {
-    const Pack* da = gradients_.m[a];
-    const Pack* db = gradients_.m[b];
-    PackMat k;  // in the frame of the left singular vectors
-    for (int i = 0; i < 3; ++i)
-    {
-      const int j = (i + 1) % 3, l = (i + 2) % 3;
-      k.m[i][i] =
-          hessian_.m[i][i] * da[i] * db[i] + same_[l] * da[j] * db[j] + same_[j] * da[l] * db[l];
-      k.m[i][j] = hessian_.m[i][j] * da[i] * db[j] + cross_[l] * da[j] * db[i];
-      k.m[i][l] = hessian_.m[i][l] * da[i] * db[l] + cross_[j] * da[l] * db[i];
-    }
-    PackMat uk;
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        uk.m[i][j] =
-            svd_.u.m[i][0] * k.m[0][j] + svd_.u.m[i][1] * k.m[1][j] + svd_.u.m[i][2] * k.m[2][j];
-      }
-    }
-    return timesTransposed(uk, svd_.u);
-  }
-
- private:
-  Svd svd_;
-  PackMat hessian_;    ///< by the stretches
-  PackMat gradients_;  ///< rows: shape gradients of nodes 1, 2, 3 in the right singular vectors
-  // The 2 x 2 blocks that mix F_ij and F_ji: [[same, cross], [cross, same]].
-  Pack same_[3];
-  Pack cross_[3];
-};
-
-inline const Index* positionsOf(const Index* positions, Index group, int lane)
-{
-  return positions + kTetLanes * kTetBlocks * static_cast<long>(group) + lane;
-}
-
-template <typename Material>
 void tetStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
                   const Index* positions, double* values)
 {
   forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
-    const Index* place = positionsOf(positions, group, lane);
-    if constexpr (Material::kOfInvariants)
+    constexpr int kSize = 9 * kTetBlocks;
+    Pack out[padded(kSize)];
+    materialBlocks<Material, kProjected>(t, out);
+    for (int k = kSize; k < padded(kSize); ++k)
     {
-      addStiffness(InvariantBlocks(t, Material::ofInvariants(t.f, t.constants)), place, values);
+      out[k] = Pack{};
     }
-    else
-    {
-      addStiffness(PrincipalBlocks<Material, false>(t), place, values);
-    }
-  });
-}
-
-template <typename Material>
-void tetProjectedStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
-                           const Index* positions, double* values)
-{
-  forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
-    addStiffness(PrincipalBlocks<Material, true>(t), positionsOf(positions, group, lane), values);
+    alignas(64) double rows[kLanes][padded(kSize)];
+    transpose<kSize>(out, rows);
+    addBlocks<kTetBlocks>(
+        rows, positions + kTetLanes * kTetBlocks * static_cast<long>(group) + lane, values);
   });
 }
 

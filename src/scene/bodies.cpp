@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/energy/mass_terms.h"
+#include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
+#include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/geometry/triangle_tree.h"
 
 namespace soft_tissue
@@ -76,7 +79,7 @@ std::vector<std::vector<Index>> movedNodes(const SoftBodyConfig& config, const T
 
 void applyRegions(const TissueConfig& config, const std::string& where, TissueModel& model)
 {
-  const std::vector<int>& tags = model.info.rest.tags;
+  const std::vector<int>& tags = model.quadratic ? model.quadratic->tags : model.info.rest.tags;
   for (std::size_t k = 0; k < config.regions.size(); ++k)
   {
     const RegionConfig& region = config.regions[k];
@@ -172,7 +175,7 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
   TissueModel model;
   LoadedTetMesh loaded = loadTetMesh(config.mesh.file, config.mesh.metres_per_unit);
   model.info = infoOf(config, std::move(loaded.mesh), loaded.report);
-  const TetMesh& rest = model.info.rest;
+  TetMesh& rest = model.info.rest;
   for (std::size_t t = 0; t < rest.tets.size(); ++t)
   {
     const Tet& tet = rest.tets[t];
@@ -183,11 +186,17 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
                   " has no volume, can't be simulated; `mesh_tool repair` removes such tets");
     }
   }
+  const std::size_t elements = rest.tets.size();
+  if (config.element == ElementKind::tet10)
+  {
+    model.quadratic = withEdgeNodes(rest);
+    rest = subdivided(*model.quadratic);
+  }
   model.info.surface = extractBoundary(static_cast<Index>(rest.nodes.size()), rest.tets);
   hold(config, where, model);
   const MaterialConfig& material = config.material;
-  model.stiffness.assign(rest.tets.size(), {material.young_modulus_pa, material.poisson_ratio});
-  model.densities.assign(rest.tets.size(), material.density_kg_per_m3);
+  model.stiffness.assign(elements, {material.young_modulus_pa, material.poisson_ratio});
+  model.densities.assign(elements, material.density_kg_per_m3);
   applyRegions(config, where, model);
   return model;
 }
@@ -219,6 +228,44 @@ SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& wher
   model.info.surface = surfaceOf(static_cast<Index>(nodes.size()), triangles);
   hold(config, where, model);
   return model;
+}
+
+std::unique_ptr<Elasticity> makeElasticity(const TissueModel& model, MaterialModel law,
+                                           Index first_node)
+{
+  if (model.quadratic)
+  {
+    return std::make_unique<QuadraticTetElasticity>(*model.quadratic, law, model.stiffness,
+                                                    first_node);
+  }
+  return std::make_unique<TetElasticity>(model.info.rest, law, model.stiffness, first_node);
+}
+
+void addMasses(const TissueModel& model, Index first_node, std::vector<double>& masses,
+               std::vector<double>& load_masses)
+{
+  if (!model.quadratic)
+  {
+    addLumpedMasses(model.info.rest, model.densities, first_node, masses);
+    addLumpedMasses(model.info.rest, model.densities, first_node, load_masses);
+    return;
+  }
+  addLumpedMasses(*model.quadratic, model.densities, first_node, masses);
+  if (model.info.fixed_nodes.empty() && model.moved.empty())
+  {
+    addLumpedMasses(*model.quadratic, model.densities, first_node, load_masses);
+  }
+  else
+  {
+    addLoadMasses(*model.quadratic, model.densities, first_node, load_masses);
+  }
+}
+
+Adjacency elementNeighbours(const TissueModel& model)
+{
+  const auto count = static_cast<Index>(model.info.rest.nodes.size());
+  return model.quadratic ? nodeNeighbours(count, model.quadratic->elements)
+                         : nodeNeighbours(count, model.info.rest.tets);
 }
 
 std::string item(const SceneConfig& config, const char* list, std::size_t index)

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "soft_tissue_sim/energy/tet_elasticity.h"
+#include "soft_tissue_sim/energy/elasticity.h"
 #include "soft_tissue_sim/geometry/rigid_shape.h"
 #include "soft_tissue_sim/mesh/mesh_io.h"
+#include "soft_tissue_sim/mesh/quadratic_tets.h"
 #include "soft_tissue_sim/scene/scene.h"
 
 namespace soft_tissue
@@ -19,8 +21,9 @@ struct SoftBodyModel
 
 struct TissueModel : SoftBodyModel
 {
-  std::vector<TetStiffnessParameters> stiffness;  ///< per tet
-  std::vector<double> densities;                  ///< per tet, kg/m^3
+  std::optional<QuadraticTetMesh> quadratic;      ///< its elements, where they are not info.rest's
+  std::vector<TetStiffnessParameters> stiffness;  ///< per element
+  std::vector<double> densities;                  ///< per element, kg/m^3
 };
 
 /**
@@ -35,6 +38,22 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where);
  * @throws Error for a bad mesh or one with tets, a fixed box without nodes
  */
 SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& where);
+
+/** Its elastic energy, with its node 0 in row `first_node`. */
+std::unique_ptr<Elasticity> makeElasticity(const TissueModel& model, MaterialModel law,
+                                           Index first_node);
+
+/**
+ * Adds its masses, and the masses by which gravity pulls at its nodes, kg.
+ *
+ * These differ for quadratic tets alone: uniform forces then act as the shape functions say. But a
+ * tissue that nothing holds has to fall without being deformed, so gravity takes its masses.
+ */
+void addMasses(const TissueModel& model, Index first_node, std::vector<double>& masses,
+               std::vector<double>& load_masses);
+
+/** Nodes that share an element with each node. */
+Adjacency elementNeighbours(const TissueModel& model);
 
 /** "<scene file>: list[index]", for messages. */
 std::string item(const SceneConfig& config, const char* list, std::size_t index);

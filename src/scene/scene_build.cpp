@@ -44,7 +44,7 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   v_.resize(x_.size());
   acceleration_.resize(x_.size());
   inertia_ = std::make_unique<Inertia>(masses_);
-  gravity_ = std::make_unique<Gravity>(masses_, config_.gravity_m_per_s2);
+  gravity_ = std::make_unique<Gravity>(load_masses_, config_.gravity_m_per_s2);
   makeSolver();
   setOff();
   tools_.reserve(config_.tools.size());
@@ -66,10 +66,10 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   showObstacles();
 }
 
-Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, SoftBodyModel& model)
+Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, const SoftBodyModel& model)
 {
   const SoftBodyConfig& config = config_.softBody(index);
-  tissue_info_.push_back(std::move(model.info));
+  tissue_info_.push_back(model.info);
   const TissueInfo& info = tissue_info_.back();
   if (config_.solver.stepper == Stepper::quasi_static && info.fixed_nodes.empty() &&
       model.moved.empty())
@@ -83,7 +83,7 @@ Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, SoftBodyModel& 
   {
     MovedNodes moved;
     moved.tissue = index;
-    moved.rows = std::move(model.moved[k]);
+    moved.rows = model.moved[k];
     for (Index& row : moved.rows)
     {
       row += tissue.first_node;
@@ -101,27 +101,26 @@ Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, SoftBodyModel& 
   tissue.short_edge = edgeLength(info, kShortEdges);
   x_.insert(x_.end(), info.rest.nodes.begin(), info.rest.nodes.end());
   masses_.resize(x_.size(), 0.0);
+  load_masses_.resize(x_.size(), 0.0);
   return tissue;
 }
 
 void Scene::Impl::addTissue(std::size_t index)
 {
-  TissueModel model = makeTissue(config_.tissues[index], itemOf(index));
+  const TissueModel model = makeTissue(config_.tissues[index], itemOf(index));
   Tissue& tissue = addSoftBody(index, model);
-  const TetMesh& rest = tissue_info_[index].rest;
-  tissue.neighbours = nodeNeighbours(tissue.node_count, rest.tets);
-  auto elasticity = std::make_unique<TetElasticity>(rest, config_.tissues[index].material.model,
-                                                    model.stiffness, tissue.first_node);
+  tissue.neighbours = elementNeighbours(model);
+  std::unique_ptr<Elasticity> elasticity =
+      makeElasticity(model, config_.tissues[index].material.model, tissue.first_node);
   tissue.tets = elasticity.get();
   tissue.elasticity = std::move(elasticity);
-  addLumpedMasses(rest, model.densities, tissue.first_node, masses_);
+  addMasses(model, tissue.first_node, masses_, load_masses_);
 }
 
 void Scene::Impl::addMembrane(std::size_t index)
 {
   const MembraneConfig& config = config_.membranes[index - config_.tissues.size()];
-  SoftBodyModel model = makeMembrane(config, itemOf(index));
-  Tissue& membrane = addSoftBody(index, model);
+  Tissue& membrane = addSoftBody(index, makeMembrane(config, itemOf(index)));
   const TissueInfo& info = tissue_info_[index];
   const TriMesh rest = {info.rest.nodes, info.surface.triangles};
   membrane.neighbours = membraneNeighbours(membrane.node_count, rest.triangles);
@@ -132,10 +131,12 @@ void Scene::Impl::addMembrane(std::size_t index)
           rest.triangles.size(),
           {material.young_modulus_pa, material.poisson_ratio, config.thickness_m}),
       membrane.first_node);
-  addLumpedMasses(
-      rest,
-      std::vector<double>(rest.triangles.size(), material.density_kg_per_m3 * config.thickness_m),
-      membrane.first_node, masses_);
+  const std::vector<double> surface_densities(rest.triangles.size(),
+                                              material.density_kg_per_m3 * config.thickness_m);
+  for (std::vector<double>* masses : {&masses_, &load_masses_})
+  {
+    addLumpedMasses(rest, surface_densities, membrane.first_node, *masses);
+  }
 }
 
 void Scene::Impl::makeSolver()

@@ -9,8 +9,8 @@
 #include "soft_tissue_sim/contact/obstacle_contact.h"
 #include "soft_tissue_sim/contact/tissue_contact.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
+#include "soft_tissue_sim/energy/elasticity.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
-#include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/scene/scene.h"
 #include "soft_tissue_sim/solver/newton.h"
 
@@ -59,9 +59,9 @@ class Scene::Impl
     Index node_count = 0;
     Adjacency neighbours;  ///< nodes that elasticity couples
     std::unique_ptr<EnergyTerm> elasticity;
-    TetElasticity* tets = nullptr;  ///< the elasticity of a tissue
-    double short_edge = 0.0;        ///< see TissueBody
-    double inner_radius = 0.0;      ///< see innerRadius(); 0: not known yet
+    Elasticity* tets = nullptr;  ///< the elasticity of a tissue
+    double short_edge = 0.0;     ///< see TissueBody
+    double inner_radius = 0.0;   ///< see innerRadius(); 0: not known yet
   };
   /** Nodes that key frames move. */
   struct MovedNodes
@@ -107,7 +107,7 @@ class Scene::Impl
     Points x, v, acceleration;
   };
 
-  Tissue& addSoftBody(std::size_t index, SoftBodyModel& model);
+  Tissue& addSoftBody(std::size_t index, const SoftBodyModel& model);
   void addTissue(std::size_t index);
   void addMembrane(std::size_t index);
   void addTool(std::size_t index);
@@ -169,6 +169,7 @@ class Scene::Impl
   std::vector<char> held_;          ///< per tissue: something outside holds it or its group
   Points spin_;                     ///< per free group: its spin when the step began
   std::vector<double> masses_;
+  std::vector<double> load_masses_;  ///< what gravity pulls at
   std::unique_ptr<Inertia> inertia_;
   std::unique_ptr<Gravity> gravity_;
   std::unique_ptr<NewtonSolver> newton_;

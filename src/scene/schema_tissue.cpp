@@ -150,12 +150,15 @@ const Section<TissueConfig>& tissueSection()
   static const Section<TissueConfig> section = [] {
     Section<TissueConfig> keys("tissue", "A soft body.");
     addPlace(keys, "Its rest shape.");
+    keys.optional("element", &TissueConfig::element,
+                  choice<ElementKind>({{"tet4", ElementKind::tet4}, {"tet10", ElementKind::tet10}}),
+                  "tet4: linear; tet10: quadratic, with a node in the middle of each edge of the "
+                  "mesh as well.");
     keys.optional("regions", &TissueConfig::regions, listOf(mapOf(regionSection())),
                   "Parts of other stiffness or density; each tag once.");
     addHolds(keys);
     keys.optional("field", &TissueConfig::field, mapOf(fieldSection()),
                   "Its distance field; marched only if the tissue has a contact.")
-        .notAvailable("element", "Quadratic and locking-free elements.")
         .finally(checkRegions);
     return keys;
   }();

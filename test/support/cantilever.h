@@ -1,17 +1,20 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
 #include "soft_tissue_sim/energy/mass_terms.h"
+#include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/mesh/generate.h"
+#include "soft_tissue_sim/scene/config.h"
 #include "soft_tissue_sim/solver/newton.h"
 #include "support/elastica.h"
 
 namespace soft_tissue::test
 {
-/** A slender beam of linear tets with a square section, clamped at x = 0, nu = 0; gravity is -z. */
+/** A slender beam with a square section, clamped at x = 0, nu = 0; gravity is -z. */
 class Cantilever
 {
  public:
@@ -24,15 +27,41 @@ class Cantilever
 
   /** Cubes of a `cells`-th of the thickness along and across the beam, one over its width: what
    * does not change along y does not need more. */
-  Cantilever(MaterialModel model, int cells)
+  Cantilever(MaterialModel model, int cells, ElementKind kind = ElementKind::tet4)
       : cells_{static_cast<int>(kSlender) * cells, 1, cells},
-        rest_(makeBox(cells_, {kLength, kThick, kThick})),
-        masses_(rest_.nodes.size(), 0.0),
-        end_share_(rest_.nodes.size(), 0.0),
-        elasticity_(rest_, model, {rest_.tets.size(), {kYoung, 0.0}}, 0)
+        rest_(makeBox(cells_, {kLength, kThick, kThick}))
   {
+    const TetMesh box = rest_;
+    const std::vector<TetStiffnessParameters> stiffness(box.tets.size(), {kYoung, 0.0});
+    const std::vector<double> densities(box.tets.size(), kDensity);
+    Adjacency neighbours = nodeNeighbours(static_cast<Index>(box.nodes.size()), box.tets);
+    std::map<Edge, Index> middles;
+    if (kind == ElementKind::tet4)
+    {
+      elasticity_ = std::make_unique<TetElasticity>(box, model, stiffness, 0);
+      masses_.resize(box.nodes.size(), 0.0);
+      addLumpedMasses(box, densities, 0, masses_);
+    }
+    else
+    {
+      const QuadraticTetMesh quadratic = withEdgeNodes(box);
+      rest_ = subdivided(quadratic);
+      neighbours = nodeNeighbours(static_cast<Index>(rest_.nodes.size()), quadratic.elements);
+      elasticity_ = std::make_unique<QuadraticTetElasticity>(quadratic, model, stiffness, 0);
+      masses_.resize(rest_.nodes.size(), 0.0);
+      addLoadMasses(quadratic, densities, 0, masses_);
+      for (const QuadraticTet& element : quadratic.elements)
+      {
+        for (int e = 0; e < 6; ++e)
+        {
+          const Index a = element[kTetEdges[e][0]], b = element[kTetEdges[e][1]];
+          middles[{std::min(a, b), std::max(a, b)}] = element[4 + e];
+        }
+      }
+    }
+    elements_ = box.tets.size();
     const auto count = static_cast<Index>(rest_.nodes.size());
-    addLumpedMasses(rest_, std::vector<double>(rest_.tets.size(), kDensity), 0, masses_);
+    end_share_.resize(rest_.nodes.size(), 0.0);
     std::vector<Index> clamped;
     for (Index i = 0; i < count; ++i)
     {
@@ -41,23 +70,32 @@ class Cantilever
         clamped.push_back(i);
       }
     }
-    for (const Triangle& t : extractBoundary(count, rest_.tets).triangles)
+    for (Triangle t : extractBoundary(count, box.tets).triangles)
     {
       const Vec3& a = rest_.nodes[t[0]];
       const Vec3 area = 0.5 * (rest_.nodes[t[1]] - a).cross(rest_.nodes[t[2]] - a);
       if (area.x() > 0.9 * area.norm())
       {
+        if (kind == ElementKind::tet10)  // a uniform pull acts at the middles of the sides alone
+        {
+          const Triangle corners = t;
+          for (int k = 0; k < 3; ++k)
+          {
+            const Index b = corners[k], c = corners[(k + 1) % 3];
+            t[k] = middles.at({std::min(b, c), std::max(b, c)});
+          }
+        }
         for (const Index node : t)
         {
           end_share_[node] += area.norm() / (3.0 * kThick * kThick);
         }
       }
     }
-    newton_ =
-        std::make_unique<NewtonSolver>(nodeNeighbours(count, rest_.tets), clamped, makeCholesky());
+    newton_ = std::make_unique<NewtonSolver>(neighbours, clamped, makeCholesky());
   }
 
   const TetMesh& rest() const { return rest_; }
+  std::size_t elements() const { return elements_; }
 
   /** The beam at rest under these loads (stretch and shear are its own); x: start and solution. */
   NewtonReport bend(const BeamLoad& load, Points& x)
@@ -71,7 +109,7 @@ class Cantilever
     NodalLoads pull(forces);
     const double weight = load.weight * kBending / (kLength * kLength * kLength);
     Gravity gravity(masses_, {0.0, 0.0, -weight / (kDensity * kThick * kThick)});
-    const std::vector<EnergyTerm*> terms = {&elasticity_, &pull, &gravity};
+    const std::vector<EnergyTerm*> terms = {elasticity_.get(), &pull, &gravity};
     NewtonOptions options;
     options.tolerance = 1e-7;
     options.max_iterations = 200;
@@ -120,10 +158,11 @@ class Cantilever
   }
 
   std::array<int, 3> cells_;
-  TetMesh rest_;
-  std::vector<double> masses_;
+  TetMesh rest_;  ///< quadratic tets cut into linear ones
+  std::size_t elements_ = 0;
+  std::vector<double> masses_;     ///< what gravity pulls at
   std::vector<double> end_share_;  ///< of the end face's area, per node
-  TetElasticity elasticity_;
+  std::unique_ptr<Elasticity> elasticity_;
   std::unique_ptr<NewtonSolver> newton_;
 };
 

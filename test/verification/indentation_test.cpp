@@ -67,6 +67,47 @@ TEST(Indentation, OfAFlatPunchAndOfACone)
   expectForce(cone, {8, 12, 16}, 1.2, 0.08);
 }
 
+/** With quadratic tets. */
+IndentationResult indentQuadratic(int cells, Response response, double stiffness)
+{
+  const test::ScratchFolder folder;
+  IndentationMesh mesh;
+  mesh.cells = cells;
+  mesh.element = ElementKind::tet10;
+  mesh.response = response;
+  mesh.stiffness = stiffness;
+  const IndentationResult got = indent(Indentation(), mesh, folder.path(""));
+  std::printf("  %zu nodes, cells of %.3f contact radii: force %+.1f %%\n", got.nodes,
+              got.element_m / Indentation().contactRadius(),
+              100.0 * (got.force / Indentation().force() - 1.0));
+  return got;
+}
+
+TEST(Indentation, OfASphereIsNearHertzsForceWithFewQuadraticTets)
+{
+  const double expected = Indentation().force();
+  for (const Response response : {Response::segment, Response::point})
+  {
+    EXPECT_NEAR(indentQuadratic(5, response, 400.0).force, expected, 0.06 * expected);
+  }
+  const test::ScratchFolder folder;
+  IndentationMesh linear;
+  linear.cells = 10;  // about the same nodes
+  EXPECT_GT(indent(Indentation(), linear, folder.path("")).force, 1.2 * expected);
+}
+
+TEST(Indentation, HasTheSameForceOnFineMeshesOfQuadraticTets)
+{
+  const Indentation sphere;
+  const double stiffness = kAutoStiffness * sphere.contactRadius() / sphere.radius_m;
+  for (const Response response : {Response::segment, Response::point})
+  {
+    const double coarse = indentQuadratic(5, response, stiffness).force;
+    const double fine = indentQuadratic(7, response, stiffness).force;
+    EXPECT_NEAR(fine, coarse, 0.05 * fine);
+  }
+}
+
 TEST(Indentation, FormulasAgreeWithTheirPublishedValues)
 {
   Indentation sphere, punch, cone;

@@ -112,6 +112,31 @@ TEST_F(SaggingBeam, HangsAsDeepAsInAnotherProgram)
   }
 }
 
+// The limit of that program's quadratic tets: 59.4 mm of way, of which coarse linear ones miss a
+// quarter.
+TEST_F(SaggingBeam, HangsAsDeepAsItShouldWithAFewQuadraticTets)
+{
+  const Vec3 limit(-19.09, -56.24, 0.0);
+  for (const MaterialModel model : {MaterialModel::corotated, MaterialModel::neo_hookean})
+  {
+    for (const char* mesh : {"beam1k", "beam5k"})
+    {
+      SceneConfig config = scene(mesh, model, 0.981);
+      config.solver.stepper = Stepper::quasi_static;
+      config.tissues[0].element = ElementKind::tet10;
+      Scene beam(config);
+      ASSERT_TRUE(beam.step().converged) << mesh;
+      const Tip found = tip(beam);
+      std::printf("  %s, %zu nodes: tip (%.2f, %.2f) mm\n", mesh,
+                  beam.tissues()[0].rest.nodes.size(), found.x, found.y);
+      if (model == MaterialModel::corotated)
+      {
+        EXPECT_LT((Vec3(found.x, found.y, 0.0) - limit).norm(), 0.01 * limit.norm()) << mesh;
+      }
+    }
+  }
+}
+
 TEST_F(SaggingBeam, SwingsAsInAnotherProgram)
 {
   const Reference rows[] = {{"beam5k", 0.981, {-12.62, -47.23}},

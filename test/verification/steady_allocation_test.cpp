@@ -126,16 +126,18 @@ SceneConfig rubbedLobe()
   return config;
 }
 
-class SteadyAllocation : public testing::TestWithParam<int>
+class SteadyAllocation : public testing::TestWithParam<std::tuple<int, ElementKind>>
 {
  protected:
-  void SetUp() override { setThreadCount(GetParam()); }
+  void SetUp() override { setThreadCount(std::get<0>(GetParam())); }
   void TearDown() override { setThreadCount(1); }
 };
 
 TEST_P(SteadyAllocation, aStepInContactAllocatesNothing)
 {
-  Scene scene(rubbedLobe());
+  SceneConfig config = rubbedLobe();
+  config.tissues.at(0).element = std::get<1>(GetParam());
+  Scene scene(config);
   const double warm_s = (kWarmUpPeriods + 0.5) * kPeriod;
   const double end_s = warm_s + kCountedPeriods * kPeriod;
   Snapshot snapshot;
@@ -154,7 +156,9 @@ TEST_P(SteadyAllocation, aStepInContactAllocatesNothing)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, SteadyAllocation, testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Threads, SteadyAllocation,
+                         testing::Combine(testing::Values(1, 2),
+                                          testing::Values(ElementKind::tet4, ElementKind::tet10)));
 
 TEST(AllocationCounter, seesEveryKind)
 {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/energy/term.h"
+#include "soft_tissue_sim/mesh/quadratic_tets.h"
 #include "soft_tissue_sim/mesh/tet_mesh.h"
 
 namespace soft_tissue
@@ -16,6 +17,18 @@ void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, 
  * one per triangle, kg/m^2. */
 void addLumpedMasses(const TriMesh& rest, const std::vector<double>& surface_densities,
                      Index first_node, std::vector<double>& masses);
+
+/**
+ * Adds each element's mass to its nodes as the diagonal of its consistent mass matrix has it: 1/36
+ * to each vertex, 4/27 to each edge. Source: [Hinton1976]
+ */
+void addLumpedMasses(const QuadraticTetMesh& rest, const std::vector<double>& densities,
+                     Index first_node, std::vector<double>& masses);
+
+/** Adds the mass times the mean of each node's shape function, what a uniform force on it acts
+ * with: -1/20 of the element's to each vertex, 1/5 to each edge. */
+void addLoadMasses(const QuadraticTetMesh& rest, const std::vector<double>& densities,
+                   Index first_node, std::vector<double>& masses);
 
 /** 1/(2 h^2) |x - target|^2 in the lumped mass: what makes implicit Euler a minimisation. */
 class Inertia : public EnergyTerm
@@ -43,7 +56,8 @@ class Inertia : public EnergyTerm
 class Gravity : public EnergyTerm
 {
  public:
-  /** @param masses N, kg; must outlive the term  @param acceleration m/s^2, world */
+  /** @param masses N, kg, lumped or addLoadMasses(); must outlive the term
+   * @param acceleration m/s^2, world */
   Gravity(const std::vector<double>& masses, const Vec3& acceleration)
       : masses_(masses), acceleration_(acceleration)
   {}

@@ -1,23 +1,11 @@
 #pragma once
 
-#include <vector>
-
-#include "soft_tissue_sim/energy/term.h"
-#include "soft_tissue_sim/energy/tet_chunks.h"
-#include "soft_tissue_sim/energy/tet_kernels.h"
-#include "soft_tissue_sim/mesh/tet_mesh.h"
+#include "soft_tissue_sim/energy/elasticity.h"
 
 namespace soft_tissue
 {
-/** Stiffness of one tet. */
-struct TetStiffnessParameters
-{
-  double young_modulus = 0.0;  ///< Pa, > 0
-  double poisson_ratio = 0.0;  ///< in (-1, 0.5)
-};
-
 /** Elastic energy of the linear tets of one body: sum of V psi(F). */
-class TetElasticity : public EnergyTerm
+class TetElasticity : public Elasticity
 {
  public:
   /**
@@ -28,45 +16,6 @@ class TetElasticity : public EnergyTerm
    */
   TetElasticity(const TetMesh& rest, MaterialModel model,
                 const std::vector<TetStiffnessParameters>& parameters, Index first_node);
-
-  double value(const Points& x) override;
-  void addGradient(const Points& x, Points& gradient) override;
-  double valueAndGradient(const Points& x, Points& gradient) override;
-  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
-
-  /** Smallest det F over all tets: 1 at rest, <= 0 when one is inverted. */
-  double minDetF(const Points& x);
-
-  /** Equivalent (von Mises) Cauchy stress per tet, M, Pa. */
-  void vonMises(const Points& x, std::vector<float>& stress);
-
- private:
-  void addTet(const TetMesh& rest, Index tet, std::size_t lane,
-              const TetStiffnessParameters& parameters);
-  double sumOfEnergies(Index begin, Index end) const;
-  void findPositions(const BlockMatrix& hessian);
-  void state(const Points& x, double* von_mises);
-  /** Calls body(begin, end) for ranges of groups, at once only for those that share no node. */
-  template <typename Body>
-  void forGroups(const Body& body) const;
-
-  Index first_node_;
-  const TetKernels* kernels_;
-  TetChunks chunks_;
-  Index group_count_;
-
-  // Arrays over groups of lanes, see TetGroups.
-  std::vector<Index> nodes_;
-  std::vector<double> rest_gradients_;
-  std::vector<double> volumes_;
-  std::vector<double> constants_;
-  TetGroups groups_;
-  std::vector<Index> positions_;  ///< blocks of the matrix last seen, see TetKernels::stiffness
-  std::size_t matrix_blocks_ = 0;
-
-  std::vector<double> energies_;   ///< per lane
-  std::vector<double> det_f_;      ///< per lane
-  std::vector<double> von_mises_;  ///< per lane; empty until asked for
 };
 
 }  // namespace soft_tissue

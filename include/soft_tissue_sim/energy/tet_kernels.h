@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "soft_tissue_sim/base/cpu.h"
 #include "soft_tissue_sim/base/index.h"
 #include "soft_tissue_sim/energy/material.h"
@@ -13,21 +15,36 @@ constexpr Index kTetLanes = 8;
 /** Constants a law needs per tet, made from E and nu once. */
 constexpr int kMaterialConstants = 4;
 
-/** Blocks of a tet's stiffness: (0,0) (1,1) (2,2) (3,3) (0,1) (0,2) (0,3) (1,2) (1,3) (2,3). */
+/** Blocks of a linear tet's stiffness. */
 constexpr int kTetBlocks = 10;
+
+/** Blocks of a quadratic tet's stiffness. */
+constexpr int kQuadraticTetBlocks = 55;
+
+/** The two of an element's nodes that a block of its stiffness couples. */
+using BlockNodes = std::array<int, 2>;
 
 /** Constant data of groups of tets; arrays hold all groups in a row. */
 struct TetGroups
 {
-  const Index* nodes;       ///< [group][4][8], a tet's in any order
+  const Index* nodes;       ///< [group][TetKernels::nodes][8], a linear tet's in any order
   const double* gradients;  ///< [group][3][3][8]: rows of the inverse rest edge matrix, 1/m
   const double* volumes;    ///< [group][8], m^3, > 0; 0 in unused lanes
   const double* constants;  ///< [group][kMaterialConstants][8]
+  /** [group][TetKernels::parts][4][8]: barycentric coordinates of the places where the stress of
+   * quadratic tets is told; linear ones have none. */
+  const double* places;
 };
 
-/** Element loops of one material for one instruction set; x is flat, 3 per node, m. */
+/** Element loops of one material and one kind of tet for one instruction set; x is flat, 3 per
+ * node, m. */
 struct TetKernels
 {
+  int nodes;                 ///< of a tet
+  int parts;                 ///< of a tet that have a stress of their own
+  int block_count;           ///< kTetBlocks or kQuadraticTetBlocks
+  const BlockNodes* blocks;  ///< block_count, in the order of positions below
+
   /** Constants of the law from E (Pa) and nu. */
   void (*constants)(double young_modulus, double poisson_ratio, double* constants);
   /** energies[group][8], J. */
@@ -38,19 +55,23 @@ struct TetKernels
   /**
    * Adds the second derivative, N/m, to blocks of nine values by columns. Nodes must ascend within
    * each tet: only blocks on and above the diagonal are written.
-   * @param positions  [group][kTetBlocks][8]: block numbers
+   * @param positions  [group][block_count][8]: block numbers
    */
   void (*stiffness)(const TetGroups&, Index begin, Index end, const double* x,
                     const Index* positions, double* values);
-  /** The same, each tet's negative eigenvalues set to zero. */
+  /** The same, negative eigenvalues set to zero: each linear tet's, or each Gauss point's. */
   void (*projected_stiffness)(const TetGroups&, Index begin, Index end, const double* x,
                               const Index* positions, double* values);
-  /** det_f[group][8] and, unless null, von_mises[group][8] in Pa. */
+  /** det_f[group][8], the smallest of each tet, and, unless null, von_mises[group][parts][8] in Pa.
+   */
   void (*state)(const TetGroups&, Index begin, Index end, const double* x, double* det_f,
                 double* von_mises);
 };
 
-/** The loops for a material on this machine. */
+/** The loops for linear tets of a material on this machine. */
 const TetKernels& tetKernels(MaterialModel model, InstructionSet set);
+
+/** The loops for quadratic tets; their nodes as in QuadraticTet. */
+const TetKernels& quadraticTetKernels(MaterialModel model, InstructionSet set);
 
 }  // namespace soft_tissue

@@ -89,11 +89,18 @@ struct FieldConfig
   FieldRefresh refresh = FieldRefresh::lazy;
 };
 
+enum class ElementKind
+{
+  tet4,   ///< linear tets
+  tet10,  ///< quadratic tets, with a node in the middle of each edge of the mesh
+};
+
 /** What tissues and membranes have in common. */
 struct SoftBodyConfig
 {
   std::string name;
   MeshConfig mesh;
+  ElementKind element = ElementKind::tet4;
   PoseConfig pose;
   Vec3 velocity_m_per_s = Vec3::Zero();  ///< it starts with, world
   MaterialConfig material;
@@ -104,6 +111,7 @@ struct SoftBodyConfig
 /** A soft body of tets. */
 struct TissueConfig : SoftBodyConfig
 {
+  ElementKind element = ElementKind::tet4;
   std::vector<RegionConfig> regions;
   FieldConfig field;
 };

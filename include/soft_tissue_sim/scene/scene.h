@@ -73,7 +73,8 @@ struct Wrench
 struct TissueInfo
 {
   std::string name;
-  TetMesh rest;  ///< rest state, world frame; a membrane has nodes but no tets
+  /** Rest state, world frame; quadratic tets as subdivided() cuts them; a membrane has no tets. */
+  TetMesh rest;
   BoundarySurface surface;
 
   bool isMembrane() const { return rest.tets.empty(); }

@@ -72,7 +72,9 @@ std::vector<BadScene> badNames()
       {"linear: auto", "stepper: rk4",
        "solver.stepper = rk4, must be one of implicit_euler, quasi_static"},
       {"response: segment", "response: [segment]",
-       "contacts[0].response = [segment], must be one of point, segment"},
+       "contacts[0].response = [segment], must be one of point, segment, auto"},
+      {"    field: {method: cffm}", "    element: tet20",
+       "tissues[0].element = tet20, must be one of tet4, tet10"},
       {"{method: cffm}", "{method: magic}",
        "tissues[0].field.method = magic, must be one of exact_marching, cffm, cpfm, "
        "grid"},
@@ -168,12 +170,29 @@ std::vector<BadScene> badMembranes()
   };
 }
 
+std::vector<BadScene> badLaws()
+{
+  return {
+      {"friction: 0.1", "damping_s_per_m: -1",
+       "contacts[0].damping_s_per_m = -1, must be in [0, 1e+06]"},
+      {"friction: 0.1", "law: hertz",
+       "contacts[0].law = hertz, must be one of pressure, fisher2001, marchal2004"},
+      {"friction: 0.1", "penalty: 5",
+       "contacts[0].penalty = 5, is for laws fisher2001 and marchal2004, which aren't asked for"},
+      {"stiffness_pa_per_m: 1.0e7", "law: marchal2004",
+       "contacts[0].penalty: missing, must be given with law marchal2004"},
+      {"friction: 0.1", "law: marchal2004, penalty: 5",
+       "contacts[0].stiffness_pa_per_m = 1.0e7, is for law pressure; this one has a penalty"},
+      {"stiffness_pa_per_m: 1.0e7", "law: fisher2001, penalty: 5",
+       "contacts[0].law = fisher2001, knows nodes alone, must stand with response: point"},
+  };
+}
+
 std::vector<BadScene> notAvailable()
 {
   return {
       {"outputs:", "obstacles: [{name: table, octomap: {topic: octomap_in}}]\noutputs:",
        "obstacles[0].octomap.topic: " NOT_AVAILABLE},
-      {"    field: {method: cffm}", "    element: tet10", "tissues[0].element: " NOT_AVAILABLE},
       {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
       {"linear: auto", "linear: multigrid",
        "solver.linear = multigrid, " NOT_AVAILABLE "; must be auto, pcg, cholesky"},
@@ -204,6 +223,7 @@ TEST_P(BadSceneNamesTest, IsAnsweredWithFileKeyValueAndWhatIsAllowed)
 INSTANTIATE_TEST_SUITE_P(Names, BadSceneNamesTest, testing::ValuesIn(badNames()));
 INSTANTIATE_TEST_SUITE_P(Files, BadSceneNamesTest, testing::ValuesIn(badFiles()));
 INSTANTIATE_TEST_SUITE_P(Membranes, BadSceneNamesTest, testing::ValuesIn(badMembranes()));
+INSTANTIATE_TEST_SUITE_P(Laws, BadSceneNamesTest, testing::ValuesIn(badLaws()));
 INSTANTIATE_TEST_SUITE_P(NotAvailable, BadSceneNamesTest, testing::ValuesIn(notAvailable()));
 
 TEST(BadSceneResolverTest, PackagesCantBeFoundWithoutAResolver)

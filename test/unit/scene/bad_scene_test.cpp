@@ -106,7 +106,7 @@ std::vector<BadScene> badKeys()
   return {
       {"    material: {young_modulus_pa: 3000", "    materail: {young_modulus_pa: 3000",
        "tissues[0].materail: unknown key, did you mean 'material'? Known: name, mesh, pose, "
-       "velocity_m_per_s, material, regions, fixed, keyframes, field"},
+       "velocity_m_per_s, material, element, regions, fixed, keyframes, field"},
       {"young_modulus_pa: 3000", "young_modulus_kpa: 3",
        "tissues[0].material.young_modulus_kpa: unknown key, did you mean 'young_modulus_pa'? "
        "Known: model, preset, young_modulus_pa, poisson_ratio, density_kg_per_m3"},

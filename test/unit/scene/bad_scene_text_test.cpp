@@ -71,8 +71,7 @@ TEST_F(BadSceneTextTest, NoTissue)
   EXPECT_EQ(complaint("tissues:\n"), "DIR/scene.yaml: tissues = nothing, must be a list");
   EXPECT_EQ(complaint("tissues: [liver]\n"),
             "DIR/scene.yaml: tissues[0] = liver, must be a map of keys: name, mesh, pose, "
-            "velocity_m_per_s, "
-            "material, regions, fixed, keyframes, field");
+            "velocity_m_per_s, material, element, regions, fixed, keyframes, field");
 }
 
 TEST_F(BadSceneTextTest, SyntaxErrorsHaveLineAndColumn)
