@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -166,11 +167,30 @@ TetMesh makeNamed(const Arguments& arguments)
     const std::vector<double> size = arguments.numbers("--size", {0.1, 0.02, 0.02});
     return makeBox(cellsForBox({size[0], size[1], size[2]}, tets), {size[0], size[1], size[2]});
   }
-  throw UsageError("shape '" + shape + "', must be lobe, box, ball, torus or tube");
+  throw UsageError("shape '" + shape + "', must be lobe, box, ball, torus, tube or sheet");
+}
+
+/** Squares of about the size that gives so many triangles, each cut into four. */
+TriMesh makeSheetOf(const Arguments& arguments)
+{
+  const std::vector<double> size = arguments.numbers("--size", {0.1, 0.1});
+  const double triangles = arguments.numbers("--triangles", {2000.0})[0];
+  const double edge = std::sqrt(4.0 * size[0] * size[1] / triangles);
+  const auto cells = [&](double length) {
+    return static_cast<int>(std::clamp(std::round(length / edge), 1.0, 1e3));
+  };
+  return makeSheet({cells(size[0]), cells(size[1])}, {size[0], size[1]}, SheetPattern::crossed);
 }
 
 void generate(const Arguments& arguments)
 {
+  if (arguments.names[0] == "sheet")
+  {
+    LoadedMesh sheet;
+    sheet.surface = makeSheetOf(arguments);
+    save(arguments.names[1], sheet);
+    return;
+  }
   LoadedMesh made;
   made.volume = makeNamed(arguments);
   print(toText(checkMesh(made.volume)));
@@ -250,11 +270,13 @@ const std::vector<Command> kCommands = {
      "  Writes a volume as Gmsh 2.2, a surface as binary STL, in metres.\n"},
     {"generate",
      2,
-     {"--tets", "--size", "--digits"},
+     {"--tets", "--triangles", "--size", "--digits"},
      generate,
      "mesh_tool generate lobe|box|ball|torus|tube OUT [--tets N] [--size ...] [--digits N]\n"
-     "  Makes a mesh of about N tets. Sizes in metres: box X,Y,Z; ball R; torus RING,TUBE radius;\n"
-     "  tube INNER,OUTER,LENGTH. The lobe has one size, and a nodule with tag 2.\n"},
+     "mesh_tool generate sheet OUT [--triangles N] [--size X,Y]\n"
+     "  Makes a mesh of about N tets or triangles. Sizes in metres: box X,Y,Z; ball R; torus\n"
+     "  RING,TUBE radius; tube INNER,OUTER,LENGTH. The lobe has one size, and a nodule with tag "
+     "2.\n"},
     {"tetrahedralize",
      2,
      {"--unit", "--with", "--edge-length", "--timeout"},
