@@ -84,7 +84,7 @@ TEST(Snake, CoilsUpWhereItTouchesItselfAndElseGoesThroughItself)
   EXPECT_GT(deepestOf(3000, false), kThrough);
 }
 
-// Some minutes: asked for by --gtest_also_run_disabled_tests.
+// A minute: asked for by --gtest_also_run_disabled_tests.
 TEST(Snake, DISABLED_CoilsUpAsATubeOf14000Tets)
 {
   EXPECT_LT(deepestOf(14000, true), kShallow);
