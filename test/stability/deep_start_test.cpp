@@ -10,16 +10,6 @@ namespace
 {
 constexpr double kRadius = 0.02;
 
-Vec3 centreOf(const TissueState& tissue)
-{
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : tissue.positions)
-  {
-    sum += p;
-  }
-  return sum / static_cast<double>(tissue.positions.size());
-}
-
 // Penalty contact at full depth would throw these apart at metres per second.
 TEST(DeepStart, FreeBallsComeApartTheShortWayWithoutABurst)
 {

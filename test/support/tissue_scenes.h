@@ -52,6 +52,17 @@ inline Vec3 forceOnFirst(const TissuePairState& pair)
   return force;
 }
 
+/** Mean of a tissue's nodes, m. */
+inline Vec3 centreOf(const TissueState& tissue)
+{
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : tissue.positions)
+  {
+    sum += p;
+  }
+  return sum / static_cast<double>(tissue.positions.size());
+}
+
 /** Root mean square speed of all nodes, m/s. */
 inline double rmsSpeed(const Snapshot& snapshot)
 {

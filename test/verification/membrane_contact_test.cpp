@@ -88,16 +88,11 @@ TEST(MembraneContact, ThrownBallIsCaught)
         }
         back = mean.z();
       }
-      Vec3 centre = Vec3::Zero();
-      for (const Vec3& p : state.tissues[0].positions)
-      {
-        centre += p / static_cast<double>(state.tissues[0].positions.size());
-      }
       std::printf(
           "  %d cells, %s: ball got down to %.1f mm, goes at %.2f m/s; deepest %.3f mm; %d held\n",
           cells, response == Response::point ? "points" : "segments", 1e3 * lowest, back,
           1e3 * deepest, held);
-      EXPECT_GT(centre.z(), 0.0);
+      EXPECT_GT(centreOf(state.tissues[0]).z(), 0.0);
       EXPECT_GT(back, 0.0);
       EXPECT_EQ(held, 0);
     }
