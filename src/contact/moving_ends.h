@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
-#include "soft_tissue_sim/collision/interval.h"
+#include "quadrature.h"
+#include "soft_tissue_sim/collision/inside_intervals.h"
 #include "soft_tissue_sim/contact/contact_sample.h"
 
 namespace soft_tissue
@@ -55,5 +57,44 @@ class MovingEnds
   double by_begin_ = 0.0;  ///< dQ/dbegin, J
   double by_end_ = 0.0;
 };
+
+/**
+ * Appends the samples of a stretch of an edge, and of its ends where they are on the surface.
+ * @param along     the whole edge, m
+ * @param sampleAt  sampleAt(parameter, weight, sample) measures there, by ascending parameters; a
+ *                  whole edge has weight 1; false where nothing presses
+ */
+template <std::size_t N, typename SampleAt>
+void addStretch(const std::array<QuadraturePoint, N>& rule, const InsideInterval& inside,
+                const Vec3& along, const SampleAt& sampleAt, std::vector<ContactSample>& samples)
+{
+  MovingEnds ends(inside.where, along);
+  ContactSample begin;
+  if (inside.begin_on_surface)
+  {
+    sampleAt(inside.where.begin, 1.0, begin);
+  }
+  forEachPoint(rule, inside.where, [&](double parameter, double weight) {
+    ContactSample sample;
+    if (sampleAt(parameter, weight, sample))
+    {
+      ends.count(sample, parameter);
+      samples.push_back(sample);
+    }
+  });
+  if (inside.begin_on_surface && ends.close(begin, true))
+  {
+    samples.push_back(begin);
+  }
+  ContactSample end;
+  if (inside.end_on_surface)
+  {
+    sampleAt(inside.where.end, 1.0, end);
+    if (ends.close(end, false))
+    {
+      samples.push_back(end);
+    }
+  }
+}
 
 }  // namespace soft_tissue

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "moving_ends.h"
-#include "quadrature.h"
 #include "soft_tissue_sim/geometry/clip.h"
 
 namespace soft_tissue
@@ -69,6 +68,9 @@ void SurfaceInTissue::dropMisses(const std::vector<ElementPair>& candidates)
 {
   const Points& x = *x_;
   filter_.clear();
+  boxes_.resize(elements_->size());
+  boxed_in_.resize(elements_->size(), 0);
+  ++call_;
   for (std::size_t i = 0; i < candidates.size();)
   {
     const Index t = candidates[i].second;
@@ -78,18 +80,36 @@ void SurfaceInTissue::dropMisses(const std::vector<ElementPair>& candidates)
     {
       box.extend(x[node]);
     }
-    filter_.setTet(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
+    bool set = false;
     for (; i < candidates.size() && candidates[i].second == t; ++i)
     {
-      const Vec3& a = end(candidates[i].first, 0);
-      const Vec3& b = end(candidates[i].first, 1);
-      if ((a.cwiseMin(b).array() <= box.max.array()).all() &&
-          (a.cwiseMax(b).array() >= box.min.array()).all())
+      const Index element = candidates[i].first;
+      if (!boxOf(element).overlaps(box))
       {
-        filter_.add(static_cast<Index>(i), a, b);
+        continue;
       }
+      if (!set)
+      {
+        filter_.setTet(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
+        set = true;
+      }
+      filter_.add(static_cast<Index>(i), end(element, 0), end(element, 1));
     }
   }
+}
+
+/** Of an element, made once a call. */
+const Box3& SurfaceInTissue::boxOf(Index element)
+{
+  Box3& box = boxes_[element];
+  if (boxed_in_[element] != call_)
+  {
+    boxed_in_[element] = call_;
+    box = Box3();
+    box.extend(end(element, 0));
+    box.extend(end(element, 1));
+  }
+  return box;
 }
 
 void SurfaceInTissue::hostElement(Index element, Index number)
@@ -125,6 +145,7 @@ void SurfaceInTissue::addSamples(const DistanceField& field, std::vector<Contact
   depth_.prepare(*x_);
   for (const Index element : held_)
   {
+    near_ = -1;
     if (!segments_)
     {
       addPoint(element, field, samples);
@@ -177,6 +198,7 @@ void SurfaceInTissue::addStretches(Index edge, const DistanceField& field,
 {
   const std::vector<SegmentPiece>& pieces = edge_hosts_.disjointPieces(edge);
   const int cells = (*elements_)[edge].cells;
+  const double area = (*elements_)[edge].area;
   for (std::size_t first = 0, last = 0; first < pieces.size(); first = ++last)
   {
     while (last + 1 < pieces.size() &&
@@ -186,12 +208,12 @@ void SurfaceInTissue::addStretches(Index edge, const DistanceField& field,
     }
     const Interval inside = {pieces[first].where.begin, pieces[last].where.end};
     std::size_t at = first;
-    const auto sampleAt = [&](double parameter, double area, ContactSample& sample) {
+    const auto sampleAt = [&](double parameter, double weight, ContactSample& sample) {
       while (at < last && pieces[at].where.end < parameter)
       {
         ++at;
       }
-      return measure({edge, parameter, &hosts_[pieces[at].host], area}, field, sample);
+      return measure({edge, parameter, &hosts_[pieces[at].host], weight * area}, field, sample);
     };
     const auto cellOf = [&](double parameter) { return static_cast<int>(parameter * cells); };
     double begin = inside.begin;
@@ -200,45 +222,12 @@ void SurfaceInTissue::addStretches(Index edge, const DistanceField& field,
       const double end = std::min((cell + 1.0) / cells, inside.end);
       if (end > begin)  // rounding may put a begin on the cell's end
       {
-        addStretch(edge, {begin, end}, begin > 0.0 && begin == inside.begin,
-                   end < 1.0 && end == inside.end, sampleAt, samples);
+        addStretch(
+            kGauss2,
+            {{begin, end}, begin > 0.0 && begin == inside.begin, end < 1.0 && end == inside.end},
+            edgeVector(edge), sampleAt, samples);
         begin = end;
       }
-    }
-  }
-}
-
-template <typename SampleAt>
-void SurfaceInTissue::addStretch(Index edge, const Interval& stretch, bool begin_moves,
-                                 bool end_moves, const SampleAt& sampleAt,
-                                 std::vector<ContactSample>& samples) const
-{
-  const double area = (*elements_)[edge].area;
-  MovingEnds ends(stretch, edgeVector(edge));
-  ContactSample begin;
-  if (begin_moves)
-  {
-    sampleAt(stretch.begin, area, begin);
-  }
-  forEachPoint(kGauss2, stretch, [&](double parameter, double weight) {
-    ContactSample sample;
-    if (sampleAt(parameter, weight * area, sample))
-    {
-      ends.count(sample, parameter);
-      samples.push_back(sample);
-    }
-  });
-  if (begin_moves && ends.close(begin, true))
-  {
-    samples.push_back(begin);
-  }
-  ContactSample end;
-  if (end_moves)
-  {
-    sampleAt(stretch.end, area, end);
-    if (ends.close(end, false))
-    {
-      samples.push_back(end);
     }
   }
 }
@@ -251,8 +240,7 @@ Vec3 SurfaceInTissue::restPoint(const Place& place) const
   return a + place.parameter * ((*intruder_.rest)[nodes[1]] - a);
 }
 
-bool SurfaceInTissue::measure(const Place& place, const DistanceField& field,
-                              ContactSample& sample) const
+bool SurfaceInTissue::measure(const Place& place, const DistanceField& field, ContactSample& sample)
 {
   const Vec3& a = end(place.element, 0);
   const Vec3 p = a + place.parameter * (end(place.element, 1) - a);
@@ -262,9 +250,9 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field,
     return false;
   }
   const bool found = intruder_.rest == nullptr
-                         ? depth_.evaluate(p, host.tet, host.coords, *x_, field, sample)
+                         ? depth_.evaluate(p, host.tet, host.coords, *x_, field, near_, sample)
                          : depth_.evaluateSelf(p, host.tet, host.coords, *x_, field,
-                                               *intruder_.rest, restPoint(place), sample);
+                                               *intruder_.rest, restPoint(place), near_, sample);
   if (!found)
   {
     return false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -69,14 +70,12 @@ class SurfaceInTissue
   };
 
   void dropMisses(const std::vector<ElementPair>& candidates);
+  const Box3& boxOf(Index element);
   void hostElement(Index element, Index number);
   void addPoint(Index element, const DistanceField& field, std::vector<ContactSample>& samples);
   void addPieces(Index edge, const DistanceField& field, std::vector<ContactSample>& samples);
   void addStretches(Index edge, const DistanceField& field, std::vector<ContactSample>& samples);
-  template <typename SampleAt>
-  void addStretch(Index edge, const Interval& stretch, bool begin_moves, bool end_moves,
-                  const SampleAt& sampleAt, std::vector<ContactSample>& samples) const;
-  bool measure(const Place& place, const DistanceField& field, ContactSample& sample) const;
+  bool measure(const Place& place, const DistanceField& field, ContactSample& sample);
   Vec3 restPoint(const Place& place) const;
   Vec3 edgeVector(Index edge) const;
   const Vec3& end(Index element, int k) const { return (*nodes_)[(*elements_)[element].nodes[k]]; }
@@ -89,11 +88,15 @@ class SurfaceInTissue
   const std::vector<SurfaceElement>* elements_ = nullptr;
   const Points* nodes_ = nullptr;
   const Points* x_ = nullptr;
+  std::vector<Box3> boxes_;              ///< of elements
+  std::vector<std::uint32_t> boxed_in_;  ///< the call that each was made in
+  std::uint32_t call_ = 0;
   SegmentFilter filter_;           ///< of candidates, by their places
   std::vector<Host> hosts_;        ///< tets that hold something
   std::vector<Index> point_host_;  ///< per point: place in hosts_, or -1
   std::vector<Index> held_;        ///< points and edges that have a host, ascending
   SegmentCover edge_hosts_;        ///< per edge: its pieces in hosts_
+  Index near_ = -1;                ///< boundary triangle nearest to the last sample of the element
 };
 
 }  // namespace soft_tissue

@@ -38,6 +38,7 @@ struct TissueContact::Parts
   std::array<Points, 2> start;        ///< of bodies, at the start of the step
   std::array<Points, 2> expected;     ///< and where they were expected to go
   double margin = 0.0;  ///< how much nearer bodies may come before candidates are too few, m
+  bool near = false;    ///< there were candidates when the step began
 
   /** The body that has the tets of a side. */
   std::size_t host(std::size_t side) const { return bodies.size() - 1 - side; }
@@ -153,6 +154,8 @@ void TissueContact::lagPlaces(const Points& x, const Points& towards, bool refre
                           &p.expected[p.host(k)]},
                          p.margin, refresh);
   }
+  p.near = std::any_of(p.sides.begin(), p.sides.end(),
+                       [](const TissueInTissue& side) { return side.hasCandidates(); });
 }
 
 // The energy stays the same function of x whatever the candidates: areas and depths are those of
@@ -212,10 +215,10 @@ void TissueContact::setAllowance(double depth_m)
   }
 }
 
+// Where bodies are taken apart in the course of a minimisation they may come back.
 bool TissueContact::active() const
 {
-  return std::any_of(parts_->sides.begin(), parts_->sides.end(),
-                     [](const TissueInTissue& side) { return side.active(); });
+  return parts_->near;
 }
 
 void TissueContact::forgetField()

@@ -32,21 +32,27 @@ Adjacency trianglesOfTets(std::size_t tet_count, const std::vector<Index>& trian
   return rows;
 }
 
-/** The triangles a search for the nearest boundary feature starts from, each once. */
-struct Starts
-{
-  std::array<Index, 8> triangle;  // one per node and one per face of a tet
-  int count = 0;
+/** Of an edge's length: nearer to a triangle a point is on it. */
+constexpr double kOnSurface = 1e-10;
+/** The tree is renewed when nodes are farther from it than this, in short edges. */
+constexpr double kStale = 0.1;
 
-  void add(Index candidate)
+int nearestCorner(const Vec3& p, const Tet& tet, const Points& x)
+{
+  int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 4; ++k)
   {
-    if (candidate >= 0 && std::find(triangle.begin(), triangle.begin() + count, candidate) ==
-                              triangle.begin() + count)
+    const double squared = (x[tet[k]] - p).squaredNorm();
+    if (squared < least)
     {
-      triangle[count++] = candidate;
+      least = squared;
+      nearest = k;
     }
   }
-};
+  return nearest;
+}
+
 /** Depth linear in a tet that keeps its nodal depths: it bends as the tet is deformed. */
 DepthCurvature interpolatedCurvature(const std::array<Vec3, 4>& corners)
 {
@@ -110,42 +116,49 @@ void TissueDepth::prepare(const Points& x)
   {
     return;
   }
-  const std::vector<Triangle>& triangles = tissue_.surface->triangles;
-  boxes_.resize(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i)
+  const std::vector<Index>& nodes = tissue_.surface->nodes;
+  double squared = 0.0;
+  for (std::size_t i = 0; i < tree_nodes_.size(); ++i)
   {
-    boxes_[i] = Box3();
-    for (const Index node : triangles[i])
-    {
-      boxes_[i].extend(x[node]);
-    }
+    squared = std::max(squared, (x[nodes[i]] - tree_nodes_[i]).squaredNorm());
+  }
+  moved_ = std::sqrt(squared);
+  if (!tree_.empty() && moved_ <= kStale * tissue_.short_edge)
+  {
+    return;
   }
   if (tree_.empty())
   {
-    tree_.build(boxes_);
+    tree_.build(tissue_.surface->triangles, x);
   }
   else
   {
-    tree_.refit(boxes_);
+    tree_.refit(x);
   }
+  tree_nodes_.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    tree_nodes_[i] = x[nodes[i]];
+  }
+  moved_ = 0.0;
 }
 
 bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
-                           const DistanceField& field, ContactSample& sample) const
+                           const DistanceField& field, Index& near, ContactSample& sample) const
 {
   sample.position = p;
   const auto any = [](Index) { return true; };
-  return closest_feature_ ? findFeature(p, tet, x, field, any, sample)
+  return closest_feature_ ? findFeature(p, tet, x, field, any, near, sample)
                           : interpolate(p, (*tissue_.tets)[tet], coords, field, sample);
 }
 
 bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& coords,
                                const Points& x, const DistanceField& field, const Points& rest,
-                               const Vec3& rest_of, ContactSample& sample) const
+                               const Vec3& rest_of, Index& near, ContactSample& sample) const
 {
   if (!closest_feature_)
   {
-    return evaluate(p, tet, coords, x, field, sample);
+    return evaluate(p, tet, coords, x, field, near, sample);
   }
   const Tet& nodes = (*tissue_.tets)[tet];
   const Eigen::Vector4d weights = coords.weights(p);
@@ -161,7 +174,7 @@ bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& c
     return apart.dot(rest[t[0]] + rest[t[1]] + rest[t[2]]) / 3.0 <= halfway;
   };
   sample.position = p;
-  return findFeature(p, tet, x, field, onThisSide, sample);
+  return findFeature(p, tet, x, field, onThisSide, near, sample);
 }
 
 DepthCurvature TissueDepth::curvature(const ContactSample& sample, const Points& x) const
@@ -191,46 +204,45 @@ bool TissueDepth::interpolate(const Vec3& p, const Tet& tet, const TetCoordinate
   return true;
 }
 
+/** What is on a triangle of its own tet, as the ends of clipped edges are, needs no search. */
+template <typename Allowed>
+Index TissueDepth::nearestTriangle(const Vec3& p, Index tet, const Points& x,
+                                   const DistanceField& field, Index near,
+                                   const Allowed& allowed) const
+{
+  Index hint = near;
+  for (const Index* own = tet_triangles_.begin(tet); own != tet_triangles_.end(tet); ++own)
+  {
+    const Triangle& t = tissue_.surface->triangles[*own];
+    const Vec3 &a = x[t[0]], &b = x[t[1]], &c = x[t[2]];
+    const double near = kOnSurface * (b - a).norm();
+    if (allowed(*own) && closestOnTriangle(p, a, b, c).squared_distance <= near * near)
+    {
+      return *own;
+    }
+    hint = hint < 0 ? *own : hint;
+  }
+  if (hint < 0)
+  {
+    const Tet& nodes = (*tissue_.tets)[tet];
+    hint = field.closestTriangle()[nodes[nearestCorner(p, nodes, x)]];
+  }
+  return tree_.nearestOf(p, x, hint, moved_, allowed).triangle;
+}
+
 template <typename Allowed>
 bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
-                              const Allowed& allowed, ContactSample& sample) const
+                              const Allowed& allowed, Index& near, ContactSample& sample) const
 {
-  Starts starts;
-  for (const Index node : (*tissue_.tets)[tet])
-  {
-    starts.add(field.closestTriangle()[node]);
-  }
-  for (const Index* i = tet_triangles_.begin(tet); i != tet_triangles_.end(tet); ++i)
-  {
-    starts.add(*i);
-  }
   const std::vector<Triangle>& triangles = tissue_.surface->triangles;
-  const auto onTriangle = [&](Index i) {
-    return closestOnTriangle(p, x[triangles[i][0]], x[triangles[i][1]], x[triangles[i][2]]);
-  };
-  Index nearest = -1;
-  TrianglePoint found;
-  found.squared_distance = std::numeric_limits<double>::infinity();
-  const auto consider = [&](Index i) {
-    if (allowed(i))
-    {
-      const TrianglePoint point = onTriangle(i);
-      if (point.squared_distance < found.squared_distance)
-      {
-        nearest = i;
-        found = point;
-      }
-    }
-    return found.squared_distance;
-  };
-  std::for_each(starts.triangle.begin(), starts.triangle.begin() + starts.count, consider);
-  tree_.closest(p, consider, found.squared_distance);
-  if (nearest < 0)  // nothing here is finite
+  near = nearestTriangle(p, tet, x, field, near, allowed);
+  if (near < 0)  // nothing here is finite
   {
     return false;
   }
+  const Triangle& triangle = triangles[near];
+  const TrianglePoint found = closestOnTriangle(p, x[triangle[0]], x[triangle[1]], x[triangle[2]]);
   const double distance = std::sqrt(found.squared_distance);
-  const Triangle& triangle = triangles[nearest];
   sample.count = 3;
   for (int k = 0; k < 3; ++k)
   {
@@ -238,8 +250,7 @@ bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const D
     sample.coefficient[k] = -found.weights[k];
   }
   sample.depth = distance;
-  // On the surface the direction is lost in rounding; there it is the triangle's own normal.
-  constexpr double kOnSurface = 1e-10;
+  // There the direction is lost in rounding: it is the triangle's own normal.
   const Vec3 side = x[triangle[1]] - x[triangle[0]];
   sample.gradient = distance > kOnSurface * side.norm()
                         ? Vec3((p - found.point) / distance)

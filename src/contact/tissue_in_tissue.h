@@ -44,7 +44,7 @@ class TissueInTissue
   /** Looks for candidates where bodies are expected now. */
   void lookAround(double margin);
 
-  bool active() const { return !candidates_.empty(); }
+  bool hasCandidates() const { return !candidates_.empty(); }
 
   /** Finds what is inside, at positions of each body alone, m; they stay until samples are taken.
    * @return whether anything is */

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "moving_ends.h"
-#include "quadrature.h"
 #include "soft_tissue_sim/collision/inside_intervals.h"
 
 namespace soft_tissue
@@ -135,30 +134,9 @@ void TissueInTool::addEdge(const SurfaceElement& edge, const Points& x,
     addNodes(tissue_, edge, parameter, sample);
     return measure(a + parameter * along, edge, weight, sample);
   };
-  const auto addStretch = [&](const InsideInterval& inside) {
-    MovingEnds ends(inside.where, along);
-    forEachPoint(kGauss3, inside.where, [&](double parameter, double weight) {
-      ContactSample sample;
-      if (sampleAt(parameter, weight, sample))
-      {
-        ends.count(sample, parameter);
-        samples.push_back(sample);
-      }
-    });
-    for (const bool at_begin : {true, false})
-    {
-      ContactSample sample;
-      if (at_begin ? inside.begin_on_surface : inside.end_on_surface)
-      {
-        sampleAt(at_begin ? inside.where.begin : inside.where.end, 1.0, sample);
-        if (ends.close(sample, at_begin))
-        {
-          samples.push_back(sample);
-        }
-      }
-    }
-  };
-  forEachInsideInterval(distance, along.norm(), edge.cells, addStretch);
+  forEachInsideInterval(distance, along.norm(), edge.cells, [&](const InsideInterval& inside) {
+    addStretch(kGauss3, inside, along, sampleAt, samples);
+  });
 }
 
 }  // namespace soft_tissue

@@ -21,8 +21,6 @@ constexpr double kPlaneRounding = 1e-14;
 constexpr double kNeedle = 1e-12;
 /** Patches of more triangles have no planes of their own: they are seldom flat. */
 constexpr Index kLargestPatch = 256;
-/** Rounding of squared distances, as a share. */
-constexpr double kBoundRounding = 1e-13;
 
 void clear(TriangleTreeNode& node)
 {
@@ -229,52 +227,13 @@ Box3 TriangleTree::bounds() const
   return box;
 }
 
-TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, const Points& x, Index hint) const
+void TriangleTree::search(const Vec3& p, double bound, VisitTriangle visit, void* context) const
 {
-  struct Search
-  {
-    const Vec3& p;
-    const Points& x;
-    const std::vector<Triangle>& triangles;
-    Nearest found;
-
-    double visit(Index triangle)
-    {
-      if (triangle == found.triangle)
-      {
-        return limit();
-      }
-      ++found.evaluations;
-      const Triangle& t = triangles[triangle];
-      const TrianglePoint point = closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]);
-      if (point.squared_distance < found.point.squared_distance ||
-          (point.squared_distance == found.point.squared_distance && triangle < found.triangle))
-      {
-        found.point = point;
-        found.triangle = triangle;
-      }
-      return limit();
-    }
-
-    /** What another triangle must not be above to be looked at. */
-    double limit() const { return (1.0 + kBoundRounding) * found.point.squared_distance; }
-  };
-  Search search{p, x, *triangles_, {}};
-  search.found.point.squared_distance = kInfinity;
-  if (hint >= 0)
-  {
-    search.visit(hint);
-  }
   if (!nodes_.empty() && p.allFinite())
   {
-    search_(
-        nodes_.data(), p.data(), slack_ + kPlaneRounding * p.cwiseAbs().maxCoeff(), search.limit(),
-        [](void* context, Index triangle) {
-          return static_cast<Search*>(context)->visit(triangle);
-        },
-        &search);
+    search_(nodes_.data(), p.data(), slack_ + kPlaneRounding * p.cwiseAbs().maxCoeff(), bound,
+            visit, context);
   }
-  return search.found;
 }
 
 }  // namespace soft_tissue

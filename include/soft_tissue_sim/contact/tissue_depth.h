@@ -4,17 +4,17 @@
 #include "soft_tissue_sim/contact/depth_curvature.h"
 #include "soft_tissue_sim/contact/tissue_body.h"
 #include "soft_tissue_sim/field/distance_field.h"
-#include "soft_tissue_sim/geometry/aabb_tree.h"
 #include "soft_tissue_sim/geometry/barycentric.h"
+#include "soft_tissue_sim/geometry/triangle_tree.h"
 
 namespace soft_tissue
 {
 /**
  * Depth of points inside a deformed tissue, with what it depends on.
  *
- * The nearest boundary feature is the global one: the nearest of the features of the host's nodes
- * gives a bound, a tree over the boundary searches below it. A local minimum would make the energy
- * jump from tet to tet.
+ * The nearest boundary feature is the global one: that of the host's nearest node gives a bound, a
+ * tree over the boundary searches below it. A local minimum would make the energy jump from tet to
+ * tet. The tree serves while nodes have not moved far.
  */
 class TissueDepth
 {
@@ -35,10 +35,11 @@ class TissueDepth
    * @param coords  of `tet` at x
    * @param x       positions of the body alone, N x 3, m, as last prepared
    * @param field   marched on all nodes of `tet`
+   * @param near    a boundary triangle that may be near, or -1; out: the nearest
    * @return false where no part of the boundary is at a finite distance
    */
   bool evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
-                const DistanceField& field, ContactSample& sample) const;
+                const DistanceField& field, Index& near, ContactSample& sample) const;
 
   /**
    * The same at a point of the tissue's own surface that has come to be inside it.
@@ -48,7 +49,7 @@ class TissueDepth
    */
   bool evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
                     const DistanceField& field, const Points& rest, const Vec3& rest_of,
-                    ContactSample& sample) const;
+                    Index& near, ContactSample& sample) const;
 
   /** What the second derivative of a sample's depth needs; x as it was evaluated at. */
   DepthCurvature curvature(const ContactSample& sample, const Points& x) const;
@@ -57,14 +58,18 @@ class TissueDepth
   bool interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,
                    const DistanceField& field, ContactSample& sample) const;
   template <typename Allowed>
+  Index nearestTriangle(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                        Index near, const Allowed& allowed) const;
+  template <typename Allowed>
   bool findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
-                   const Allowed& allowed, ContactSample& sample) const;
+                   const Allowed& allowed, Index& near, ContactSample& sample) const;
 
   TissueBody tissue_;
   bool closest_feature_;
-  std::vector<Box3> boxes_;  ///< of the boundary triangles
-  AabbTree tree_;            ///< over those
   Adjacency tet_triangles_;  ///< rows: tets; boundary triangles of each
+  TriangleTree tree_;        ///< over the boundary where it was at tree_nodes_
+  Points tree_nodes_;        ///< by place in BoundarySurface::nodes, m
+  double moved_ = 0.0;       ///< how far boundary nodes are from there at most, m
 };
 
 }  // namespace soft_tissue

@@ -163,6 +163,24 @@ TEST(TissueContact, FrictionHoldsBackWithoutTurning)
   }
 }
 
+TEST(TissueContact, KnowsBodiesAgainThatWereApartInTheCourseOfAStep)
+{
+  for (const ContactOptions& options : contactModels(1e6))
+  {
+    TissuePair pair = blocks(options);
+    pair.contact->beginStep(pair.x, pair.x, true);
+    const double energy = pair.contact->value(pair.x);
+    ASSERT_GT(energy, 0.0);
+    Points apart = pair.x;
+    for (Index i = pair.second.first_node; i < Index(apart.size()); ++i)
+    {
+      apart[i].z() += 0.1;
+    }
+    EXPECT_EQ(pair.contact->value(apart), 0.0);
+    EXPECT_EQ(pair.contact->value(pair.x), energy) << nameOf(options);
+  }
+}
+
 TEST(TissueContact, SeesNothingWhereBodiesAreApart)
 {
   for (const ContactOptions& options : contactModels(1e6))
