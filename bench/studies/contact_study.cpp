@@ -122,6 +122,19 @@ void studyContact(const std::string& folder, bool quick)
       mesh.stiffness = kAutoStiffness * hertz.contactRadius() / hertz.radius_m;
       table.run("mesh by mesh tet10", hertz, mesh);
     }
+    // A smaller block, so that coarse meshes have cells for the contact.
+    Indentation small = hertz;
+    small.block = 6.0;
+    for (const int cells : quick ? std::vector<int>{3} : std::vector<int>{4, 5, 6, 8, 10})
+    {
+      IndentationMesh mesh;
+      mesh.cells = cells;
+      mesh.growth = 2.8;
+      mesh.element = ElementKind::tet10;
+      mesh.response = response;
+      mesh.stiffness = 100.0;
+      table.run("small block tet10", small, mesh);
+    }
   }
 }
 

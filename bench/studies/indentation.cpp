@@ -13,8 +13,6 @@ namespace soft_tissue::studies
 {
 namespace
 {
-constexpr double kReach = 27.0;  // half the block's width, and its depth, in contact radii
-constexpr double kGrowth = 4.5;  // cells grow like sinh(kGrowth u), u going from 0 to 1
 constexpr int kSteps = 5;
 constexpr double kAbove = 0.002;  // of the contact radius, where the tool starts
 constexpr int kAround = 96;
@@ -25,14 +23,14 @@ double reduced(const Indentation& problem)
 }
 
 /** Cells about `around` the origin, on and below z = 0. */
-TetMesh gradedBlock(int cells, double reach)
+TetMesh gradedBlock(const IndentationMesh& spec, double reach)
 {
-  TetMesh mesh = makeBox({2 * cells, 2 * cells, cells}, {2.0, 2.0, 1.0});
+  TetMesh mesh = makeBox({2 * spec.cells, 2 * spec.cells, spec.cells}, {2.0, 2.0, 1.0});
   for (Vec3& p : mesh.nodes)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      p[axis] = reach * std::sinh(kGrowth * (p[axis] - 1.0)) / std::sinh(kGrowth);
+      p[axis] = reach * std::sinh(spec.growth * (p[axis] - 1.0)) / std::sinh(spec.growth);
     }
   }
   return mesh;
@@ -63,7 +61,7 @@ ShapeConfig toolShape(const Indentation& problem, const std::string& folder)
 SceneConfig makeScene(const Indentation& problem, const IndentationMesh& mesh,
                       const std::string& folder)
 {
-  const double reach = kReach * problem.contactRadius();
+  const double reach = problem.block * problem.contactRadius();
   SceneConfig config;
   config.file = "indentation";
   config.gravity_m_per_s2.setZero();
@@ -74,7 +72,7 @@ SceneConfig makeScene(const Indentation& problem, const IndentationMesh& mesh,
   tissue.name = "block";
   tissue.element = mesh.element;
   tissue.mesh.file = folder + "/block.msh";
-  saveGmsh(tissue.mesh.file, gradedBlock(mesh.cells, reach));
+  saveGmsh(tissue.mesh.file, gradedBlock(mesh, reach));
   tissue.material = {MaterialModel::neo_hookean, problem.young_modulus_pa, problem.poisson_ratio,
                      1000.0};
   tissue.fixed.push_back({Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, -reach * (1.0 - 1e-6))});
@@ -167,8 +165,8 @@ IndentationResult indent(const Indentation& problem, const IndentationMesh& mesh
   const TissueInfo& block = scene.tissues().at(0);
   result.tets = block.rest.tets.size();
   result.nodes = block.rest.nodes.size();
-  result.element_m =
-      kReach * problem.contactRadius() * std::sinh(kGrowth / mesh.cells) / std::sinh(kGrowth);
+  result.element_m = problem.block * problem.contactRadius() * std::sinh(mesh.growth / mesh.cells) /
+                     std::sinh(mesh.growth);
   result.penetration_m = snapshot.report.max_penetration_m;
   result.seconds = timer.seconds();
   return result;

@@ -22,6 +22,8 @@ struct Indentation
   double depth_m = 0.001;
   double young_modulus_pa = 5000.0;
   double poisson_ratio = 0.45;
+  /** Half the width of the block in place of the half space, and its depth, in contact radii. */
+  double block = 27.0;
 
   double force() const;          ///< N
   double contactRadius() const;  ///< m
@@ -32,7 +34,8 @@ struct Indentation
 /** How it is computed. */
 struct IndentationMesh
 {
-  int cells = 12;  ///< from the axis to each side; twice as many across, six elements each
+  int cells = 12;       ///< from the axis to each side; twice as many across, six elements each
+  double growth = 4.5;  ///< cells grow outwards like sinh(growth u), u going from 0 to 1
   ElementKind element = ElementKind::tet4;
   Response response = Response::segment;
   double stiffness = 400.0;  ///< kappa, in Young's moduli over the radius of contact
@@ -55,7 +58,7 @@ struct IndentationResult
 
 /**
  * Presses in five quasi-static steps into a block whose cells grow from the tip outwards; its lower
- * side, 27 contact radii away, is fixed.
+ * side is fixed.
  * @param folder  mesh files of block and tool are left here
  */
 IndentationResult indent(const Indentation& problem, const IndentationMesh& mesh,
