@@ -71,7 +71,8 @@ void Elasticity::addTet(const TetMesh& rest, Index t, const Index* vertices, std
   }
   volumes_[lane] = volume;
   double constants[kMaterialConstants];
-  kernels_->constants(parameters.young_modulus, parameters.poisson_ratio, constants);
+  const Lame lame = lameFrom(parameters.young_modulus, parameters.poisson_ratio);
+  kernels_->constants({lame.mu, lame.lambda, parameters.stiffening}, constants);
   for (int k = 0; k < kMaterialConstants; ++k)
   {
     constants_[8 * (kMaterialConstants * group + k) + place] = constants[k];

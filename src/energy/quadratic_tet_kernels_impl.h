@@ -135,13 +135,8 @@ const TetKernels& quadraticKernelsOf()
 
 const TetKernels& quadraticKernelsFor(MaterialModel model)
 {
-  switch (model)
-  {
-    case MaterialModel::corotated:
-      return quadraticKernelsOf<Corotated>();
-    default:
-      return quadraticKernelsOf<NeoHookean>();
-  }
+  return withLaw(model,
+                 [](auto law) -> const TetKernels& { return quadraticKernelsOf<decltype(law)>(); });
 }
 
 }  // namespace SOFT_TISSUE_KERNELS

@@ -114,9 +114,10 @@ inline PackMat timesTransposed(const PackMat& a, const PackMat& b)
 /**
  * Blocks of a law of the invariants I_C and J, without singular values: with q_a = F b_a and
  * r_a = cof(F) b_a for the shape gradient b_a,
- * K_ab / V = m (b_a . b_b) I + curvature q_a q_b^T + volumetric r_a r_b^T + pressure [F (b_a x
- * b_b)] where [w]_ij = e_ijk w_k.
+ * K_ab / V = m (b_a . b_b) I + curvature (q_a + tilt r_a) (q_b + tilt r_b)^T + volumetric r_a r_b^T
+ * + pressure [F (b_a x b_b)] where [w]_ij = e_ijk w_k.
  */
+template <typename Material>
 class InvariantBlocks
 {
  public:
@@ -131,6 +132,10 @@ class InvariantBlocks
     k_.curvature *= t.volume;
     k_.volumetric *= t.volume;
     k_.pressure *= t.volume;
+    for (int n = 0; n < 9 && Material::kTilt != 0.0; ++n)
+    {
+      q_.m[n / 3][n % 3] += Material::kTilt * r_.m[n / 3][n % 3];
+    }
   }
 
   PackMat operator()(int a, int b) const
@@ -238,13 +243,48 @@ class PrincipalBlocks
   Pack cross_[3];
 };
 
-/** Those of a law as they are, by the way that is the shorter. */
+/** Blocks of the linear law, constants mu and lambda:
+ * K_ab / V = mu (b_a . b_b) I + mu b_b b_a^T + lambda b_a b_b^T. */
+class HookeBlocks
+{
+ public:
+  explicit HookeBlocks(const Lanes& t)
+      : gradients_(t.gradients), mu_(t.volume * t.constants[0]), lambda_(t.volume * t.constants[1])
+  {}
+
+  PackMat operator()(int a, int b) const
+  {
+    const Pack* ba = gradients_.m[a];
+    const Pack* bb = gradients_.m[b];
+    const Pack shear = mu_ * (ba[0] * bb[0] + ba[1] * bb[1] + ba[2] * bb[2]);
+    PackMat block;
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        const Pack both = mu_ * bb[i] * ba[j] + lambda_ * ba[i] * bb[j];
+        block.m[i][j] = i == j ? both + shear : both;
+      }
+    }
+    return block;
+  }
+
+ private:
+  const PackMat& gradients_;
+  Pack mu_, lambda_;
+};
+
+/** Those of a law by the way that is the shortest; a law that is positive needs no projection. */
 template <typename Material, bool kProjected>
 inline void materialBlocks(const Lanes& t, Pack* out)
 {
-  if constexpr (Material::kOfInvariants && !kProjected)
+  if constexpr (Material::kForm == Form::linear)
   {
-    linearBlocks(InvariantBlocks(t, Material::ofInvariants(t.f, t.constants)), out);
+    linearBlocks(HookeBlocks(t), out);
+  }
+  else if constexpr (Material::kForm == Form::invariants && !kProjected)
+  {
+    linearBlocks(InvariantBlocks<Material>(t, Material::stiffness(t.f, t.constants)), out);
   }
   else
   {

@@ -75,13 +75,7 @@ const TetKernels& kernelsOf()
 
 const TetKernels& kernelsFor(MaterialModel model)
 {
-  switch (model)
-  {
-    case MaterialModel::corotated:
-      return kernelsOf<Corotated>();
-    default:
-      return kernelsOf<NeoHookean>();
-  }
+  return withLaw(model, [](auto law) -> const TetKernels& { return kernelsOf<decltype(law)>(); });
 }
 
 }  // namespace SOFT_TISSUE_KERNELS

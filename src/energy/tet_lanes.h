@@ -168,13 +168,15 @@ inline void scatter(const TetGroups& groups, Index group, int lane, Pack* g, dou
   }
 }
 
-/** Equivalent (von Mises) stress of the Cauchy stress P F^T / J; told even where J <= 0. */
+/** Equivalent (von Mises) stress of the Cauchy stress P F^T / J; told even where J <= 0. The linear
+ * law knows one stress only. */
 template <typename Material>
 inline Pack vonMises(const PackMat& f, const Pack* constants)
 {
+  constexpr bool kIsCauchy = Material::kForm == Form::linear;
   const PackMat p = Material::stress(f, constants);
-  PackMat s;
-  for (int a = 0; a < 3; ++a)
+  PackMat s = p;
+  for (int a = 0; a < 3 && !kIsCauchy; ++a)
   {
     for (int b = 0; b < 3; ++b)
     {
@@ -184,7 +186,7 @@ inline Pack vonMises(const PackMat& f, const Pack* constants)
   const Pack d0 = s.m[0][0] - s.m[1][1], d1 = s.m[1][1] - s.m[2][2], d2 = s.m[2][2] - s.m[0][0];
   const Pack shear = s.m[0][1] * s.m[0][1] + s.m[1][2] * s.m[1][2] + s.m[0][2] * s.m[0][2];
   const Pack size = sqrt(0.5 * (d0 * d0 + d1 * d1 + d2 * d2) + 3.0 * shear);
-  return size / max(abs(determinant(f)), splat(1e-12));
+  return kIsCauchy ? size : size / max(abs(determinant(f)), splat(1e-12));
 }
 
 }  // namespace SOFT_TISSUE_KERNELS

@@ -110,10 +110,7 @@ void Scene::Impl::addTissue(std::size_t index)
   const TissueModel model = makeTissue(config_.tissues[index], itemOf(index));
   Tissue& tissue = addSoftBody(index, model);
   tissue.neighbours = elementNeighbours(model);
-  std::unique_ptr<Elasticity> elasticity =
-      makeElasticity(model, config_.tissues[index].material.model, tissue.first_node);
-  tissue.tets = elasticity.get();
-  tissue.elasticity = std::move(elasticity);
+  tissue.tets = std::make_unique<TissueElasticity>(model, tissue.first_node);
   addMasses(model, tissue.first_node, masses_, load_masses_);
 }
 
@@ -125,7 +122,7 @@ void Scene::Impl::addMembrane(std::size_t index)
   const TriMesh rest = {info.rest.nodes, info.surface.triangles};
   membrane.neighbours = membraneNeighbours(membrane.node_count, rest.triangles);
   const MaterialConfig& material = config.material;
-  membrane.elasticity = std::make_unique<MembraneElasticity>(
+  membrane.membrane = std::make_unique<MembraneElasticity>(
       rest,
       std::vector<MembraneParameters>(
           rest.triangles.size(),

@@ -9,10 +9,10 @@
 #include "soft_tissue_sim/contact/obstacle_contact.h"
 #include "soft_tissue_sim/contact/tissue_contact.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
-#include "soft_tissue_sim/energy/elasticity.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/scene/scene.h"
 #include "soft_tissue_sim/solver/newton.h"
+#include "tissue_elasticity.h"
 
 namespace soft_tissue
 {
@@ -57,11 +57,11 @@ class Scene::Impl
   {
     Index first_node = 0;
     Index node_count = 0;
-    Adjacency neighbours;  ///< nodes that elasticity couples
-    std::unique_ptr<EnergyTerm> elasticity;
-    Elasticity* tets = nullptr;  ///< the elasticity of a tissue
-    double short_edge = 0.0;     ///< see TissueBody
-    double inner_radius = 0.0;   ///< see innerRadius(); 0: not known yet
+    Adjacency neighbours;                    ///< nodes that elasticity couples
+    std::unique_ptr<TissueElasticity> tets;  ///< of a tissue
+    std::unique_ptr<EnergyTerm> membrane;    ///< elasticity of a membrane
+    double short_edge = 0.0;                 ///< see TissueBody
+    double inner_radius = 0.0;               ///< see innerRadius(); 0: not known yet
   };
   /** Nodes that key frames move. */
   struct MovedNodes

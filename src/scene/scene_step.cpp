@@ -105,7 +105,14 @@ bool Scene::Impl::minimise(double from, double to)
   }
   for (const Tissue& tissue : tissues_)
   {
-    terms_.push_back(tissue.elasticity.get());
+    if (tissue.tets != nullptr)
+    {
+      tissue.tets->addTerms(terms_);
+    }
+    else
+    {
+      terms_.push_back(tissue.membrane.get());
+    }
   }
   const std::size_t first_contact = terms_.size();
   before_ = x_;

@@ -14,6 +14,7 @@ struct MaterialKeys
   std::optional<double> young_modulus_pa;
   std::optional<double> poisson_ratio;
   std::optional<double> density_kg_per_m3;
+  std::optional<double> stiffening;
 };
 
 template <class V>
@@ -33,7 +34,7 @@ const Section<MaterialKeys>& materialSection()
               "model", &MaterialKeys::model,
               maybe(materialModel(),
                     "the preset's, else " + materialModel().show(MaterialConfig{}.model), false),
-              "Strain energy.")
+              "Strain energy; docs/methods.md has the formulas.")
           .optional("preset", &MaterialKeys::preset, maybe(text(), "none", false),
                     "Name of an entry of the materials file.")
           .optional("young_modulus_pa", &MaterialKeys::young_modulus_pa, orPreset(youngModulus()),
@@ -41,7 +42,10 @@ const Section<MaterialKeys>& materialSection()
           .optional("poisson_ratio", &MaterialKeys::poisson_ratio, orPreset(poissonRatio()),
                     "Poisson's ratio at small strain.")
           .optional("density_kg_per_m3", &MaterialKeys::density_kg_per_m3, orPreset(density()),
-                    "Density at rest.");
+                    "Density at rest.")
+          .optional("stiffening", &MaterialKeys::stiffening, orPreset(stiffening()),
+                    "How fast the exponential model stiffens: its shear stiffness grows by a "
+                    "factor e where I_C - 3 of a stretch that keeps volume is one over this.");
   return section;
 }
 
@@ -80,6 +84,12 @@ MaterialConfig complete(const Item& item, const MaterialKeys& keys)
   material.young_modulus_pa = keys.young_modulus_pa.value_or(material.young_modulus_pa);
   material.poisson_ratio = keys.poisson_ratio.value_or(material.poisson_ratio);
   material.density_kg_per_m3 = keys.density_kg_per_m3.value_or(material.density_kg_per_m3);
+  if (keys.stiffening && material.model != MaterialModel::exponential)
+  {
+    item.at("stiffening").rejectValue("is for model exponential, which is not asked for");
+  }
+  material.stiffening = keys.stiffening ? keys.stiffening : material.stiffening;
+  checkModel(item, material.model, material.poisson_ratio, material.stiffening);
   return material;
 }
 
@@ -87,9 +97,27 @@ MaterialConfig complete(const Item& item, const MaterialKeys& keys)
 
 Kind<MaterialModel> materialModel()
 {
-  return choice<MaterialModel>(
-      {{"neo_hookean", MaterialModel::neo_hookean}, {"corotated", MaterialModel::corotated}},
-      {"linear", "st_venant_kirchhoff"});
+  return choice<MaterialModel>({{"neo_hookean", MaterialModel::neo_hookean},
+                                {"neo_hookean_log", MaterialModel::neo_hookean_log},
+                                {"exponential", MaterialModel::exponential},
+                                {"corotated", MaterialModel::corotated},
+                                {"st_venant_kirchhoff", MaterialModel::st_venant_kirchhoff},
+                                {"linear", MaterialModel::linear}});
+}
+
+void checkModel(const Item& item, MaterialModel model, double poisson_ratio,
+                const std::optional<double>& stiffening)
+{
+  const double least = leastPoissonRatio(model);
+  if (poisson_ratio < least)
+  {
+    item.reject("has poisson_ratio " + shortest(poisson_ratio) + ", must be at least " +
+                shortest(least) + " with model " + materialModel().show(model));
+  }
+  if (model == MaterialModel::exponential && !stiffening)
+  {
+    item.rejectKey("stiffening", "missing, must be given with model exponential");
+  }
 }
 
 Kind<double> youngModulus()
@@ -105,6 +133,11 @@ Kind<double> poissonRatio()
 Kind<double> density()
 {
   return number(0.0, 1e5, Ends::open_below);
+}
+
+Kind<double> stiffening()
+{
+  return number(1e-3, 100.0, Ends::closed);
 }
 
 Kind<MaterialConfig> material()

@@ -42,7 +42,18 @@ const Section<PresetConfig>& presetSection()
                     numberRange(1e5), "Least and greatest published value.")
           .required("density_source", &PresetConfig::density_source, text(),
                     "Authors, year and what was measured.")
+          .optional(
+              "stiffening", [](PresetConfig & p) -> auto& { return p.material.stiffening; },
+              maybe(stiffening(), "none", false), "Of model exponential, which needs it.")
+          .optional("stiffening_source", &PresetConfig::stiffening_source,
+                    maybe(text(), "none", false), "Authors, year and what it was fitted to.")
           .finally([](const Item& item, PresetConfig& preset) {
+            checkModel(item, preset.material.model, preset.material.poisson_ratio,
+                       preset.material.stiffening);
+            if (item.has("stiffening") && !item.has("stiffening_source"))
+            {
+              item.rejectKey("stiffening_source", "missing, must be given with stiffening");
+            }
             checkInside(item.at("young_modulus_pa"), preset.material.young_modulus_pa,
                         preset.young_modulus_range_pa, item.at("young_modulus_range_pa"));
             checkInside(item.at("density_kg_per_m3"), preset.material.density_kg_per_m3,

@@ -9,13 +9,6 @@
 
 namespace soft_tissue
 {
-/** Stiffness of one tet. */
-struct TetStiffnessParameters
-{
-  double young_modulus = 0.0;  ///< Pa, > 0
-  double poisson_ratio = 0.0;  ///< in (-1, 0.5)
-};
-
 /** Elastic energy of the tets of one body: what linear and quadratic ones have in common. */
 class Elasticity : public EnergyTerm
 {

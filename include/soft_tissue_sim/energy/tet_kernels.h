@@ -12,7 +12,7 @@ namespace soft_tissue
  * part of the bits. */
 constexpr Index kTetLanes = 8;
 
-/** Constants a law needs per tet, made from E and nu once. */
+/** Constants a law needs per tet, made from its parameters once. */
 constexpr int kMaterialConstants = 4;
 
 /** Blocks of a linear tet's stiffness. */
@@ -45,8 +45,8 @@ struct TetKernels
   int block_count;           ///< kTetBlocks or kQuadraticTetBlocks
   const BlockNodes* blocks;  ///< block_count, in the order of positions below
 
-  /** Constants of the law from E (Pa) and nu. */
-  void (*constants)(double young_modulus, double poisson_ratio, double* constants);
+  /** Constants of the law, kMaterialConstants. */
+  void (*constants)(const LawParameters& of, double* constants);
   /** energies[group][8], J. */
   void (*energy)(const TetGroups&, Index begin, Index end, const double* x, double* energies);
   /** gradient += forces of the groups' tets, flat, 3 per node, N; and their energies. */
