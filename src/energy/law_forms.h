@@ -7,7 +7,7 @@
  */
 #pragma once
 
-#include "soft_tissue_sim/energy/material.h"
+#include "soft_tissue_sim/energy/tet_kernels.h"
 #include "svd3.h"
 
 namespace soft_tissue
@@ -20,6 +20,7 @@ enum class Form
   invariants,  ///< from InvariantStiffness where it is not projected, else from the stretches
   stretches,   ///< from PrincipalStiffness
   linear,      ///< from Lame parameters: it does not depend on F
+  strain,      ///< of StrainMemory, which is no law by itself
 };
 
 /**
@@ -51,6 +52,7 @@ template <typename Law>
 struct OfInvariants
 {
   static constexpr Form kForm = Form::invariants;
+  static constexpr int kConstants = kMaterialConstants;
 
   static Pack energy(const PackMat& f, const Pack* c)
   {

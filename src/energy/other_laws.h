@@ -3,7 +3,7 @@
  */
 #pragma once
 
-#include "law_forms.h"
+#include "strain_memory.h"
 
 namespace soft_tissue
 {
@@ -12,6 +12,8 @@ namespace SOFT_TISSUE_KERNELS
 /** The constants of a law that takes the Lame parameters as they are. */
 struct OfLame
 {
+  static constexpr int kConstants = kMaterialConstants;
+
   static void constants(const LawParameters& of, double* c)
   {
     c[0] = of.mu;
@@ -120,21 +122,6 @@ struct StVenantKirchhoff : OfLame
       k.sum[i] = c[0] * (squares[a] - s[a] * s[b] + squares[b]) + rest;
     }
     return k;
-  }
-
- private:
-  static PackMat greenStrain(const PackMat& f)
-  {
-    PackMat e;
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = i; j < 3; ++j)
-      {
-        const Pack dot = f.m[0][i] * f.m[0][j] + f.m[1][i] * f.m[1][j] + f.m[2][i] * f.m[2][j];
-        e.m[i][j] = e.m[j][i] = 0.5 * (i == j ? dot - 1.0 : dot);
-      }
-    }
-    return e;
   }
 };
 

@@ -36,7 +36,7 @@ inline void loadLanes(const TetGroups& groups, Index group, int lane, const doub
 {
   double gathered[30][kLanes];
   gather<10>(groups, group, lane, x, gathered);
-  loadConstants(groups, group, lane, t.at);
+  loadRest(groups, group, lane, t.at);
   t.at.volume *= 0.25;
   for (int i = 0; i < 3; ++i)
   {
@@ -71,9 +71,11 @@ inline void deform(const Pack (*edges)[3], Lanes& t)
   }
 }
 
-/** Calls body(k, t) at each Gauss point k, t with its F. */
-template <typename Body>
-inline void forGaussPoints(QuadraticLanes& t, const Body& body)
+/** Calls body(k, t) at each Gauss point k, t with its F, and with its constants where each has its
+ * own. */
+template <typename Material, typename Body>
+inline void forGaussPoints(const TetGroups& groups, Index group, int lane, QuadraticLanes& t,
+                           const Body& body)
 {
   Pack far[3][3];
   for (int i = 0; i < 3; ++i)
@@ -96,12 +98,16 @@ inline void forGaussPoints(QuadraticLanes& t, const Body& body)
       }
     }
     deform(edges, t.at);
+    if constexpr (Material::kForm == Form::strain)
+    {
+      loadConstants<Material>(groups, kGaussPoints * static_cast<long>(group) + k, lane, t.at);
+    }
     body(k, t.at);
   }
 }
 
 /** Calls body(group, lane, lanes) for all lanes of groups begin ... end - 1. */
-template <typename Body>
+template <typename Material, typename Body>
 inline void forQuadraticLanes(const TetGroups& groups, Index begin, Index end, const double* x,
                               const Body& body)
 {
@@ -111,6 +117,10 @@ inline void forQuadraticLanes(const TetGroups& groups, Index begin, Index end, c
     {
       QuadraticLanes t;
       loadLanes(groups, group, lane, x, t);
+      if constexpr (Material::kForm != Form::strain)
+      {
+        loadConstants<Material>(groups, group, lane, t.at);
+      }
       body(group, lane, t);
     }
   }

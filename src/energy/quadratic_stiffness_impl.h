@@ -164,13 +164,13 @@ template <typename Material, bool kProjected>
 void quadraticStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
                         const Index* positions, double* values)
 {
-  forQuadraticLanes(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
+  forQuadraticLanes<Material>(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
     const Index* place =
         positions + kTetLanes * kQuadraticTetBlocks * static_cast<long>(group) + lane;
     prefetchBlocks<kQuadraticTetBlocks>(place, values);
     GaussSums sums;
     t.at.volume *= 16.0 * kFar * kNear;
-    forGaussPoints(t, [&](int k, const Lanes& at) {
+    forGaussPoints<Material>(groups, group, lane, t, [&](int k, const Lanes& at) {
       materialBlocks<Material, kProjected>(at, sums.table(k));
     });
     sums.finish();

@@ -15,9 +15,11 @@ template <typename Material>
 void quadraticEnergy(const TetGroups& groups, Index begin, Index end, const double* x,
                      double* energies)
 {
-  forQuadraticLanes(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
+  forQuadraticLanes<Material>(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
     Pack sum = {};
-    forGaussPoints(t, [&](int, const Lanes& at) { sum += Material::energy(at.f, at.constants); });
+    forGaussPoints<Material>(groups, group, lane, t, [&](int, const Lanes& at) {
+      sum += Material::energy(at.f, at.constants);
+    });
     store(energies + 8 * static_cast<long>(group) + lane, t.at.volume * sum);
   });
 }
@@ -26,11 +28,11 @@ template <typename Material>
 void quadraticGradient(const TetGroups& groups, Index begin, Index end, const double* x,
                        double* gradient, double* energies)
 {
-  forQuadraticLanes(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
+  forQuadraticLanes<Material>(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
     Pack sum = {};
     Pack by_edges[3][4][3];  // [axis][k][j]: derivative of the energy by d_kj
     Pack far[3][3] = {};
-    forGaussPoints(t, [&](int k, const Lanes& at) {
+    forGaussPoints<Material>(groups, group, lane, t, [&](int k, const Lanes& at) {
       sum += Material::energy(at.f, at.constants);
       const PackMat p = Material::stress(at.f, at.constants);
       for (int i = 0; i < 3; ++i)
@@ -80,13 +82,13 @@ template <typename Material>
 void quadraticState(const TetGroups& groups, Index begin, Index end, const double* x, double* det_f,
                     double* von_mises)
 {
-  forQuadraticLanes(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
+  forQuadraticLanes<Material>(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
     Pack smallest = splat(1e300);
     const auto consider = [&](int, const Lanes& at) {
       const Pack j = determinant(at.f);
       smallest = j < smallest ? j : smallest;
     };
-    forGaussPoints(t, consider);
+    forGaussPoints<Material>(groups, group, lane, t, consider);
     const auto deformAt = [&](const Pack* l) {
       Pack edges[3][3];
       for (int i = 0; i < 3; ++i)
@@ -118,10 +120,43 @@ void quadraticState(const TetGroups& groups, Index begin, Index end, const doubl
 }
 
 template <typename Material>
+void quadraticRemember(const TetGroups& groups, Index begin, Index end, const double* x,
+                       double* six)
+{
+  forQuadraticLanes<Material>(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
+    forGaussPoints<Material>(groups, group, lane, t, [&](int k, const Lanes& at) {
+      const long place = kGaussPoints * static_cast<long>(group) + k;
+      remember<Material>(at.f, at.constants, six + 6 * kTetLanes * place + lane);
+    });
+  });
+}
+
+const TetKernels& quadraticMemoryKernels()
+{
+  static const TetKernels kernels = {10,
+                                     kTetParts,
+                                     kGaussPoints,
+                                     kGaussPoints * StrainMemory::kConstants,
+                                     kQuadraticTetBlocks,
+                                     kQuadraticBlocks.data(),
+                                     nullptr,
+                                     quadraticEnergy<StrainMemory>,
+                                     quadraticGradient<StrainMemory>,
+                                     quadraticStiffness<StrainMemory, false>,
+                                     quadraticStiffness<StrainMemory, true>,
+                                     nullptr,
+                                     quadraticRemember<StrainMemory>,
+                                     nullptr};
+  return kernels;
+}
+
+template <typename Material>
 const TetKernels& quadraticKernelsOf()
 {
   static const TetKernels kernels = {10,
                                      kTetParts,
+                                     kGaussPoints,
+                                     Material::kConstants,
                                      kQuadraticTetBlocks,
                                      kQuadraticBlocks.data(),
                                      Material::constants,
@@ -129,7 +164,9 @@ const TetKernels& quadraticKernelsOf()
                                      quadraticGradient<Material>,
                                      quadraticStiffness<Material, false>,
                                      quadraticStiffness<Material, true>,
-                                     quadraticState<Material>};
+                                     quadraticState<Material>,
+                                     quadraticRemember<Material>,
+                                     &quadraticMemoryKernels()};
   return kernels;
 }
 

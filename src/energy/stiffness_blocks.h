@@ -274,6 +274,55 @@ class HookeBlocks
   Pack mu_, lambda_;
 };
 
+/**
+ * Blocks of what tets remember: with S the second Piola-Kirchhoff stress and q_a = F b_a,
+ * K_ab / V = (b_a . S b_b) I + mu (b_a . b_b) F F^T + mu q_b q_a^T + lambda q_a q_b^T.
+ * All but the first is positive; the projected one has the positive part of S in it.
+ */
+template <bool kProjected>
+class MemoryBlocks
+{
+ public:
+  explicit MemoryBlocks(const Lanes& t)
+      : q_(timesTransposed(t.gradients, t.f)),
+        metric_(timesTransposed(t.gradients, t.gradients)),
+        left_(timesTransposed(t.f, t.f)),
+        mu_(t.volume * t.constants[0]),
+        lambda_(t.volume * t.constants[1])
+  {
+    PackMat s = StrainMemory::secondStress(t.f, t.constants);
+    if (kProjected)
+    {
+      projectSymmetric(s);
+    }
+    stressed_ = timesTransposed(timesTransposed(t.gradients, s), t.gradients);
+    for (int n = 0; n < 9; ++n)
+    {
+      stressed_.m[n / 3][n % 3] *= t.volume;
+    }
+  }
+
+  PackMat operator()(int a, int b) const
+  {
+    PackMat block;
+    const Pack shear = mu_ * metric_.m[a][b];
+    for (int i = 0; i < 3; ++i)
+    {
+      const Pack mixed = mu_ * q_.m[b][i], own = lambda_ * q_.m[a][i];
+      for (int j = 0; j < 3; ++j)
+      {
+        const Pack both = shear * left_.m[i][j] + mixed * q_.m[a][j] + own * q_.m[b][j];
+        block.m[i][j] = i == j ? both + stressed_.m[a][b] : both;
+      }
+    }
+    return block;
+  }
+
+ private:
+  PackMat q_, metric_, left_, stressed_;
+  Pack mu_, lambda_;
+};
+
 /** Those of a law by the way that is the shortest; a law that is positive needs no projection. */
 template <typename Material, bool kProjected>
 inline void materialBlocks(const Lanes& t, Pack* out)
@@ -281,6 +330,10 @@ inline void materialBlocks(const Lanes& t, Pack* out)
   if constexpr (Material::kForm == Form::linear)
   {
     linearBlocks(HookeBlocks(t), out);
+  }
+  else if constexpr (Material::kForm == Form::strain)
+  {
+    linearBlocks(MemoryBlocks<kProjected>(t), out);
   }
   else if constexpr (Material::kForm == Form::invariants && !kProjected)
   {

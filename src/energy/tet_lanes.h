@@ -18,7 +18,7 @@ struct Lanes
   PackMat gradients;  ///< rows: rest gradients of the shape functions of nodes 1, 2, 3
   PackMat f;          ///< deformation gradient
   Pack volume;
-  Pack constants[kMaterialConstants];
+  Pack constants[kMemoryConstants];  ///< of the law; or of a point, of what it remembers
 };
 
 /** Positions of the kNodes nodes of each of a few tets: gathered[3 node + axis][lane]. */
@@ -39,8 +39,18 @@ inline void gather(const TetGroups& groups, Index group, int lane, const double*
   }
 }
 
-/** All but F. */
-inline void loadConstants(const TetGroups& groups, Index group, int lane, Lanes& lanes)
+/** Constants of a law, or of one of the points of what tets remember. */
+template <typename Material>
+inline void loadConstants(const TetGroups& groups, long place, int lane, Lanes& lanes)
+{
+  for (int k = 0; k < Material::kConstants; ++k)
+  {
+    lanes.constants[k] = load(groups.constants + 8 * (Material::kConstants * place + k) + lane);
+  }
+}
+
+/** All but F and the constants. */
+inline void loadRest(const TetGroups& groups, Index group, int lane, Lanes& lanes)
 {
   const double* gradients = groups.gradients + 72 * static_cast<long>(group) + lane;
   for (int k = 0; k < 9; ++k)
@@ -48,19 +58,16 @@ inline void loadConstants(const TetGroups& groups, Index group, int lane, Lanes&
     lanes.gradients.m[k / 3][k % 3] = load(gradients + 8 * k);
   }
   lanes.volume = load(groups.volumes + 8 * static_cast<long>(group) + lane);
-  for (int k = 0; k < kMaterialConstants; ++k)
-  {
-    lanes.constants[k] =
-        load(groups.constants + 8 * (kMaterialConstants * static_cast<long>(group) + k) + lane);
-  }
 }
 
+template <typename Material>
 inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const double* x)
 {
   Lanes lanes;
   double gathered[12][kLanes];
   gather<4>(groups, group, lane, x, gathered);
-  loadConstants(groups, group, lane, lanes);
+  loadRest(groups, group, lane, lanes);
+  loadConstants<Material>(groups, group, lane, lanes);
   for (int i = 0; i < 3; ++i)
   {
     const Pack x0 = load(gathered[i]);
@@ -77,7 +84,7 @@ inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const dou
 }
 
 /** Calls body(group, lane, lanes) for all lanes of groups begin ... end - 1. */
-template <typename Body>
+template <typename Material, typename Body>
 inline void forLanes(const TetGroups& groups, Index begin, Index end, const double* x,
                      const Body& body)
 {
@@ -85,7 +92,7 @@ inline void forLanes(const TetGroups& groups, Index begin, Index end, const doub
   {
     for (int lane = 0; lane < kTetLanes; lane += kLanes)
     {
-      body(group, lane, loadLanes(groups, group, lane, x));
+      body(group, lane, loadLanes<Material>(groups, group, lane, x));
     }
   }
 }

@@ -15,7 +15,25 @@ struct MaterialKeys
   std::optional<double> poisson_ratio;
   std::optional<double> density_kg_per_m3;
   std::optional<double> stiffening;
+  std::optional<double> mass_damping_per_s;
+  std::optional<double> stiffness_damping_s;
+  std::optional<std::vector<RelaxationBranch>> relaxation;
 };
+
+const Section<RelaxationBranch>& relaxationSection()
+{
+  static const Section<RelaxationBranch> section =
+      Section<RelaxationBranch>("relaxation",
+                                "A stress that follows each change of the elastic one and then "
+                                "goes away: a term of a Prony series.")
+          .required("relative_modulus", &RelaxationBranch::relative_modulus,
+                    number(0.0, 1000.0, Ends::open_below),
+                    "Its stiffness, in that of the elastic stress, which stays. A published term g "
+                    "of the stiffness at first is g / (1 - the sum of all).")
+          .required("relaxation_time_s", &RelaxationBranch::relaxation_time,
+                    number(0.0, 1e6, Ends::open_below), "After which 1/e of it is left.");
+  return section;
+}
 
 template <class V>
 Kind<std::optional<V>> orPreset(const Kind<V>& kind)
@@ -45,7 +63,19 @@ const Section<MaterialKeys>& materialSection()
                     "Density at rest.")
           .optional("stiffening", &MaterialKeys::stiffening, orPreset(stiffening()),
                     "How fast the exponential model stiffens: its shear stiffness grows by a "
-                    "factor e where I_C - 3 of a stretch that keeps volume is one over this.");
+                    "factor e where I_C - 3 of a stretch that keeps volume is one over this.")
+          .optional("mass_damping_per_s", &MaterialKeys::mass_damping_per_s,
+                    maybe(massDamping(), "the preset's, else 0", false),
+                    "Force against a velocity, per mass and velocity: it slows rigid motion too. "
+                    "Not for quasi_static.")
+          .optional("stiffness_damping_s", &MaterialKeys::stiffness_damping_s,
+                    maybe(stiffnessDamping(), "the preset's, else 0", false),
+                    "Stress against a rate of strain, in the stiffness at small strain; rigid "
+                    "motion goes on. Not for membranes.")
+          .optional("relaxation", &MaterialKeys::relaxation,
+                    maybe(relaxation(), "the preset's, else []", false),
+                    "What of its stress is lost with time; Young's modulus is what stays. Not for "
+                    "membranes.");
   return section;
 }
 
@@ -88,6 +118,9 @@ MaterialConfig complete(const Item& item, const MaterialKeys& keys)
   {
     item.at("stiffening").rejectValue("is for model exponential, which is not asked for");
   }
+  material.mass_damping_per_s = keys.mass_damping_per_s.value_or(material.mass_damping_per_s);
+  material.stiffness_damping_s = keys.stiffness_damping_s.value_or(material.stiffness_damping_s);
+  material.relaxation = keys.relaxation.value_or(material.relaxation);
   material.stiffening = keys.stiffening ? keys.stiffening : material.stiffening;
   checkModel(item, material.model, material.poisson_ratio, material.stiffening);
   return material;
@@ -138,6 +171,21 @@ Kind<double> density()
 Kind<double> stiffening()
 {
   return number(1e-3, 100.0, Ends::closed);
+}
+
+Kind<double> massDamping()
+{
+  return number(0.0, 1e4, Ends::closed);
+}
+
+Kind<double> stiffnessDamping()
+{
+  return number(0.0, 1e3, Ends::closed);
+}
+
+Kind<std::vector<RelaxationBranch>> relaxation()
+{
+  return listOf(mapOf(relaxationSection()));
 }
 
 Kind<MaterialConfig> material()

@@ -19,6 +19,7 @@ struct PresetConfig
   std::pair<double, double> density_range_kg_per_m3;
   std::string density_source;
   std::optional<std::string> stiffening_source;
+  std::optional<std::string> viscosity_source;
 };
 
 /** A materials file. */
@@ -55,6 +56,9 @@ Kind<double> youngModulus();
 Kind<double> poissonRatio();
 Kind<double> density();
 Kind<double> stiffening();
+Kind<double> massDamping();
+Kind<double> stiffnessDamping();
+Kind<std::vector<RelaxationBranch>> relaxation();
 
 /** Rejects a material, told at `item`, that its model does not take. */
 void checkModel(const Item& item, MaterialModel model, double poisson_ratio,

@@ -186,7 +186,7 @@ const Section<MembraneConfig>& membraneSection()
     keys.required("thickness_m", &MembraneConfig::thickness_m, number(0.0, 0.1, Ends::open_below),
                   "What it weighs, stretches and bends by; contact is with the middle of it.");
     addHolds(keys);
-    keys.finally([](const Item& item, MembraneConfig&) {
+    keys.finally([](const Item& item, MembraneConfig& membrane) {
       for (const char* key : {"model", "stiffening"})
       {
         if (item.at("material").has(key))
@@ -195,6 +195,12 @@ const Section<MembraneConfig>& membraneSection()
               .at(key)
               .rejectValue("is for tissues, a membrane has a law of its own");
         }
+      }
+      if (!membrane.material.relaxation.empty() || membrane.material.stiffness_damping_s > 0.0)
+      {
+        item.at("material")
+            .reject(
+                "has relaxation or stiffness_damping_s, which are for tissues, not for membranes");
       }
     });
     return keys;

@@ -40,7 +40,8 @@ std::unique_ptr<Elasticity> elasticityOf(const TissueModel& model, MaterialModel
 }
 }  // namespace
 
-TissueElasticity::TissueElasticity(const TissueModel& model, Index first_node)
+TissueElasticity::TissueElasticity(const TissueModel& model, const ViscosityParameters& viscosity,
+                                   Index first_node)
 {
   for (const MaterialModel law : kMaterialModels)
   {
@@ -55,6 +56,11 @@ TissueElasticity::TissueElasticity(const TissueModel& model, Index first_node)
     if (!part.elements.empty())
     {
       part.energy = elasticityOf(model, law, part.elements, first_node);
+      if (!viscosity.none())
+      {
+        part.viscosity = std::make_unique<Viscosity>(
+            *part.energy, ofElements(model.stiffness, part.elements), viscosity);
+      }
       parts_.push_back(std::move(part));
     }
   }
@@ -65,6 +71,59 @@ void TissueElasticity::addTerms(std::vector<EnergyTerm*>& terms) const
   for (const Part& part : parts_)
   {
     terms.push_back(part.energy.get());
+    if (part.viscosity != nullptr)
+    {
+      terms.push_back(part.viscosity.get());
+    }
+  }
+}
+
+template <typename Visit>
+void TissueElasticity::forViscous(const Visit& visit)
+{
+  for (Part& part : parts_)
+  {
+    if (part.viscosity != nullptr)
+    {
+      visit(part);
+    }
+  }
+}
+
+void TissueElasticity::beginStep(const Points& x, double step)
+{
+  forViscous([&](Part& part) { part.viscosity->beginStep(x, step); });
+}
+
+void TissueElasticity::endStep(const Points& x)
+{
+  forViscous([&](Part& part) { part.viscosity->endStep(x); });
+}
+
+void TissueElasticity::forget()
+{
+  forViscous([](Part& part) { part.viscosity->forget(); });
+}
+
+void TissueElasticity::save()
+{
+  forViscous([](Part& part) { part.saved = part.viscosity->memory(); });
+}
+
+void TissueElasticity::restore()
+{
+  forViscous([](Part& part) { part.viscosity->setMemory(part.saved); });
+}
+
+void TissueElasticity::addTo(StateHash& hash) const
+{
+  for (const Part& part : parts_)
+  {
+    if (part.viscosity != nullptr)
+    {
+      const std::vector<double>& memory = part.viscosity->memory();
+      hash.add(memory.data(), memory.size() * sizeof(double));
+    }
   }
 }
 

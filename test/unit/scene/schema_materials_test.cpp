@@ -99,6 +99,37 @@ TEST_F(SchemaMaterialsTest, StiffeningComesFromTheMaterialTheRegionOrThePreset)
   EXPECT_EQ(scene.tissues[0].regions[0].stiffening, 4.0);
 }
 
+TEST_F(SchemaMaterialsTest, DampingAndRelaxationComeFromTheMaterialOrThePreset)
+{
+  const MaterialConfig none = load(kScene);
+  EXPECT_EQ(none.mass_damping_per_s, 0.0);
+  EXPECT_EQ(none.stiffness_damping_s, 0.0);
+  EXPECT_TRUE(none.relaxation.empty());
+  folder_.write("my_materials.yaml",
+                replaced(kMaterials, "model: corotated",
+                         "model: corotated\n    mass_damping_per_s: 2\n"
+                         "    stiffness_damping_s: 0.03\n    relaxation: [{relative_modulus: 0.5, "
+                         "relaxation_time_s: 7}]\n    viscosity_source: me"));
+  const MaterialConfig preset = load(kScene);
+  EXPECT_EQ(preset.mass_damping_per_s, 2.0);
+  EXPECT_EQ(preset.stiffness_damping_s, 0.03);
+  ASSERT_EQ(preset.relaxation.size(), 1U);
+  EXPECT_EQ(preset.relaxation[0].relative_modulus, 0.5);
+  EXPECT_EQ(preset.relaxation[0].relaxation_time, 7.0);
+  const MaterialConfig asked =
+      load(replaced(kScene, "jelly", "jelly, mass_damping_per_s: 0, relaxation: []"));
+  EXPECT_EQ(asked.mass_damping_per_s, 0.0);
+  EXPECT_EQ(asked.stiffness_damping_s, 0.03);
+  EXPECT_TRUE(asked.relaxation.empty());
+  EXPECT_EQ(complaintAbout(folder_, std::string(kScene) + "solver: {stepper: quasi_static}\n"),
+            "DIR/scene.yaml: tissues[0].material: has mass_damping_per_s, which needs stepper "
+            "implicit_euler");
+  EXPECT_EQ(complaintAbout(folder_, replaced(replaced(kScene, "tissues:", "membranes:"), "jelly}",
+                                             "jelly}\n    thickness_m: 0.001")),
+            "DIR/scene.yaml: membranes[0].material: has relaxation or stiffness_damping_s, which "
+            "are for tissues, not for membranes");
+}
+
 TEST_F(SchemaMaterialsTest, EveryModelHasItsWord)
 {
   std::set<MaterialModel> found;
@@ -228,7 +259,10 @@ INSTANTIATE_TEST_SUITE_P(
          "presets[1].poisson_ratio_sauce: unknown key, did you mean 'poisson_ratio_source'? Known: "
          "name, model, young_modulus_pa, young_modulus_range_pa, young_modulus_source, "
          "poisson_ratio, poisson_ratio_source, density_kg_per_m3, density_range_kg_per_m3, "
-         "density_source, stiffening, stiffening_source"},
+         "density_source, stiffening, stiffening_source, mass_damping_per_s, stiffness_damping_s, "
+         "relaxation, viscosity_source"},
+        {"model: corotated", "model: corotated\n    stiffness_damping_s: 0.1",
+         "presets[1].viscosity_source: missing, must be given with stiffness_damping_s"},
         {"model: corotated", "model: exponential",
          "presets[1].stiffening: missing, must be given with model exponential"},
         {"model: corotated", "model: exponential\n    stiffening: 3",
