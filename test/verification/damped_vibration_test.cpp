@@ -90,9 +90,10 @@ class DampedVibration : public ::testing::Test
 TEST_F(DampedVibration, DecaysAsRayleighSays)
 {
   const double w = frequency_, h = kStep / w;
-  for (const double(&share)[2] : {{0.0, 0.0}, {0.1, 0.0}, {0.0, 0.1}, {0.06, 0.04}})
+  for (const auto& [by_mass, by_stiffness] :
+       std::vector<std::pair<double, double>>{{0.0, 0.0}, {0.1, 0.0}, {0.0, 0.1}, {0.06, 0.04}})
   {
-    const double alpha = share[0] * w, beta = share[1] / w;
+    const double alpha = by_mass * w, beta = by_stiffness / w;
     const std::vector<double> way = vibrate(alpha, beta, kPeriod);
     // Implicit Euler, to rounding: x'' + c x' + w^2 x = 0 with c = alpha + beta w^2.
     const double c = alpha + beta * w * w;

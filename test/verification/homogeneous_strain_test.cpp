@@ -7,6 +7,7 @@
 
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
+#include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/mesh/generate.h"
 #include "soft_tissue_sim/scene/config.h"
 #include "soft_tissue_sim/solver/newton.h"
