@@ -180,6 +180,13 @@ TEST_P(HomogeneousStrain, UniaxialStressIsThatOfTheLaw)
   double worst = 0.0;
   for (const double s : {0.5, 0.7, 0.9, 1.1, 1.5, 2.0})
   {
+    // St Venant-Kirchhoff has no width left at 2; at 0.5 it gets softer as it gets shorter, and
+    // where tets can bend, the inside buckles.
+    const bool linear_tets = std::get<1>(GetParam()) == ElementKind::tet4;
+    if (model() == MaterialModel::st_venant_kirchhoff && (s > 1.5 || (s < 0.6 && !linear_tets)))
+    {
+      continue;
+    }
     const Uniaxial expected = uniaxial(model(), kParameters, s);
     const Mat3 p = stressOf(Vec3(s, expected.lateral, expected.lateral).asDiagonal());
     Mat3 off = p;

@@ -143,6 +143,7 @@ TEST_P(SteadyAllocation, aStepInContactAllocatesNothing)
     material.mass_damping_per_s = 1.0;
     material.stiffness_damping_s = 0.01;
     material.relaxation = {{0.5, 0.02}, {0.3, 1.0}};
+    config.solver.tolerance = 1e-6;  // such smooth motion needs no iterations otherwise
   }
   Scene scene(config);
   const double warm_s = (kWarmUpPeriods + 0.5) * kPeriod;
