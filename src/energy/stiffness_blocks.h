@@ -85,7 +85,8 @@ inline void linearBlocks(const Block& blockOf, Pack* out)
 /** Adds blocks of a few tets, nine values each in rows[lane], to those of the matrix: a tet after
  * the other, so that the order does not depend on the number of lanes. */
 template <int kBlockCount, std::size_t kRow>
-inline void addBlocks(const double (*rows)[kRow], const Index* positions, double* values)
+SOFT_TISSUE_INLINE void addBlocks(const double (*rows)[kRow], const Index* positions,
+                                  double* values)
 {
   for (int lane = 0; lane < kLanes; ++lane)
   {
@@ -121,7 +122,7 @@ template <typename Material>
 class InvariantBlocks
 {
  public:
-  InvariantBlocks(const Lanes& t, const InvariantStiffness& k)
+  InvariantBlocks(const DeformedLanes& t, const InvariantStiffness& k)
       : k_(k),
         q_(timesTransposed(t.gradients, t.f)),
         r_(timesTransposed(t.gradients, cofactor(t.f))),
@@ -179,7 +180,7 @@ template <typename Material, bool kProjected>
 class PrincipalBlocks
 {
  public:
-  explicit PrincipalBlocks(const Lanes& t) : svd_(signedSvd(t.f))
+  explicit PrincipalBlocks(const Lanes<Material>& t) : svd_(signedSvd(t.f))
   {
     const Pack zero = {};
     PrincipalStiffness k = Material::principal(svd_.sigma, t.constants);
@@ -248,7 +249,7 @@ class PrincipalBlocks
 class HookeBlocks
 {
  public:
-  explicit HookeBlocks(const Lanes& t)
+  explicit HookeBlocks(const Lanes<Linear>& t)
       : gradients_(t.gradients), mu_(t.volume * t.constants[0]), lambda_(t.volume * t.constants[1])
   {}
 
@@ -283,7 +284,7 @@ template <bool kProjected>
 class MemoryBlocks
 {
  public:
-  explicit MemoryBlocks(const Lanes& t)
+  explicit MemoryBlocks(const Lanes<StrainMemory>& t)
       : q_(timesTransposed(t.gradients, t.f)),
         metric_(timesTransposed(t.gradients, t.gradients)),
         left_(timesTransposed(t.f, t.f)),
@@ -325,7 +326,7 @@ class MemoryBlocks
 
 /** Those of a law by the way that is the shortest; a law that is positive needs no projection. */
 template <typename Material, bool kProjected>
-inline void materialBlocks(const Lanes& t, Pack* out)
+inline void materialBlocks(const Lanes<Material>& t, Pack* out)
 {
   if constexpr (Material::kForm == Form::linear)
   {

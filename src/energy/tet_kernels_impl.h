@@ -15,7 +15,7 @@ namespace SOFT_TISSUE_KERNELS
 template <typename Material>
 void tetEnergy(const TetGroups& groups, Index begin, Index end, const double* x, double* energies)
 {
-  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
     store(energies + 8 * static_cast<long>(group) + lane,
           t.volume * Material::energy(t.f, t.constants));
   });
@@ -25,7 +25,7 @@ template <typename Material>
 void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x, double* gradient,
                  double* energies)
 {
-  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
     store(energies + 8 * static_cast<long>(group) + lane,
           t.volume * Material::energy(t.f, t.constants));
     const PackMat p = Material::stress(t.f, t.constants);
@@ -47,7 +47,7 @@ template <typename Material>
 void tetState(const TetGroups& groups, Index begin, Index end, const double* x, double* det_f,
               double* von_mises)
 {
-  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
     const long at = 8 * static_cast<long>(group) + lane;
     store(det_f + at, determinant(t.f));
     if (von_mises != nullptr)
@@ -60,7 +60,7 @@ void tetState(const TetGroups& groups, Index begin, Index end, const double* x, 
 template <typename Material>
 void tetRemember(const TetGroups& groups, Index begin, Index end, const double* x, double* six)
 {
-  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
     remember<Material>(t.f, t.constants, six + 6 * kTetLanes * static_cast<long>(group) + lane);
   });
 }

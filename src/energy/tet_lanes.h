@@ -12,19 +12,25 @@ namespace soft_tissue
 {
 namespace SOFT_TISSUE_KERNELS
 {
-/** What a few tets of one group need to be evaluated at x. */
-struct Lanes
+/** A few tets of one group, deformed. */
+struct DeformedLanes
 {
   PackMat gradients;  ///< rows: rest gradients of the shape functions of nodes 1, 2, 3
   PackMat f;          ///< deformation gradient
   Pack volume;
-  Pack constants[kMemoryConstants];  ///< of the law; or of a point, of what it remembers
+};
+
+/** What they need to be evaluated at x. */
+template <typename Material>
+struct Lanes : DeformedLanes
+{
+  Pack constants[Material::kConstants];  ///< of the law; or of a point, of what it remembers
 };
 
 /** Positions of the kNodes nodes of each of a few tets: gathered[3 node + axis][lane]. */
 template <int kNodes>
-inline void gather(const TetGroups& groups, Index group, int lane, const double* x,
-                   double (*gathered)[kLanes])
+SOFT_TISSUE_INLINE void gather(const TetGroups& groups, Index group, int lane, const double* x,
+                               double (*gathered)[kLanes])
 {
   const Index* nodes = groups.nodes + kTetLanes * kNodes * static_cast<long>(group) + lane;
   for (int node = 0; node < kNodes; ++node)
@@ -41,7 +47,8 @@ inline void gather(const TetGroups& groups, Index group, int lane, const double*
 
 /** Constants of a law, or of one of the points of what tets remember. */
 template <typename Material>
-inline void loadConstants(const TetGroups& groups, long place, int lane, Lanes& lanes)
+SOFT_TISSUE_INLINE void loadConstants(const TetGroups& groups, long place, int lane,
+                                      Lanes<Material>& lanes)
 {
   for (int k = 0; k < Material::kConstants; ++k)
   {
@@ -50,7 +57,8 @@ inline void loadConstants(const TetGroups& groups, long place, int lane, Lanes& 
 }
 
 /** All but F and the constants. */
-inline void loadRest(const TetGroups& groups, Index group, int lane, Lanes& lanes)
+SOFT_TISSUE_INLINE void loadRest(const TetGroups& groups, Index group, int lane,
+                                 DeformedLanes& lanes)
 {
   const double* gradients = groups.gradients + 72 * static_cast<long>(group) + lane;
   for (int k = 0; k < 9; ++k)
@@ -61,13 +69,14 @@ inline void loadRest(const TetGroups& groups, Index group, int lane, Lanes& lane
 }
 
 template <typename Material>
-inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const double* x)
+SOFT_TISSUE_INLINE Lanes<Material> loadLanes(const TetGroups& groups, Index group, int lane,
+                                             const double* x)
 {
-  Lanes lanes;
+  Lanes<Material> lanes;
   double gathered[12][kLanes];
   gather<4>(groups, group, lane, x, gathered);
   loadRest(groups, group, lane, lanes);
-  loadConstants<Material>(groups, group, lane, lanes);
+  loadConstants(groups, group, lane, lanes);
   for (int i = 0; i < 3; ++i)
   {
     const Pack x0 = load(gathered[i]);
@@ -105,7 +114,7 @@ constexpr int padded(int count)
 
 /** Exchanges the off-diagonal quarters of each square of 2 kSize lanes of two packs. */
 template <int kSize, int... kLane>
-inline void exchange(Pack& a, Pack& b, std::integer_sequence<int, kLane...>)
+SOFT_TISSUE_INLINE void exchange(Pack& a, Pack& b, std::integer_sequence<int, kLane...>)
 {
   const Pack old = a;
   a = __builtin_shuffle(old, b, Mask{(kLane & kSize ? kLane - kSize + kLanes : kLane)...});
@@ -115,7 +124,7 @@ inline void exchange(Pack& a, Pack& b, std::integer_sequence<int, kLane...>)
 /** Turns the square of packs at v[0] ... v[kLanes - 1]: lane j of pack i becomes lane i of pack j.
  */
 template <int kSize = 1>
-inline void transposeSquare(Pack* v)
+SOFT_TISSUE_INLINE void transposeSquare(Pack* v)
 {
   for (int i = 0; i < kLanes; ++i)
   {
@@ -133,7 +142,7 @@ inline void transposeSquare(Pack* v)
 /** rows[lane][first + k] = value[k] of each lane; value holds padded(kCount) packs and is used up.
  */
 template <int kCount, std::size_t kRow>
-inline void transposeInto(Pack* value, double (*rows)[kRow], int first)
+SOFT_TISSUE_INLINE void transposeInto(Pack* value, double (*rows)[kRow], int first)
 {
   for (int k = 0; k < kCount; k += kLanes)
   {
@@ -146,14 +155,15 @@ inline void transposeInto(Pack* value, double (*rows)[kRow], int first)
 }
 
 template <int kCount>
-inline void transpose(Pack* value, double (*rows)[padded(kCount)])
+SOFT_TISSUE_INLINE void transpose(Pack* value, double (*rows)[padded(kCount)])
 {
   transposeInto<kCount>(value, rows, 0);
 }
 
 /** Adds the forces g[3 node + axis] of a few tets to their nodes; uses g up. */
 template <int kNodes>
-inline void scatter(const TetGroups& groups, Index group, int lane, Pack* g, double* gradient)
+SOFT_TISSUE_INLINE void scatter(const TetGroups& groups, Index group, int lane, Pack* g,
+                                double* gradient)
 {
   constexpr int kSize = 3 * kNodes;
   for (int k = kSize; k < padded(kSize); ++k)
