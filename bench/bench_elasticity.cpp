@@ -6,6 +6,7 @@
 
 #include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
+#include "soft_tissue_sim/energy/viscosity.h"
 #include "soft_tissue_sim/mesh/generate.h"
 #include "soft_tissue_sim/mesh/mesh_io.h"
 #include "soft_tissue_sim/scene/scene.h"
@@ -23,8 +24,14 @@ enum Evaluation
   kPositive,
 };
 
+enum Viscous
+{
+  kElastic,
+  kViscous,  // damped, and with a Prony series of two
+};
+
 /** One evaluation of a twisted block of 17 x 17 x 17 nodes, whatever its elements. */
-void evaluate(benchmark::State& state, ElementKind kind, MaterialModel model)
+void evaluate(benchmark::State& state, ElementKind kind, MaterialModel model, Viscous viscous)
 {
   const QuadraticTetMesh quadratic = withEdgeNodes(makeBox({8, 8, 8}, {0.1, 0.1, 0.1}));
   const TetMesh fine = subdivided(quadratic);
@@ -44,6 +51,14 @@ void evaluate(benchmark::State& state, ElementKind kind, MaterialModel model)
         fine, model, std::vector<TetStiffnessParameters>(fine.tets.size(), {5000.0, 0.45}), 0);
     hessian = BlockMatrix(nodeNeighbours(count, fine.tets));
   }
+  std::vector<EnergyTerm*> terms = {term.get()};
+  const std::vector<TetStiffnessParameters> parameters(fine.tets.size(), {5000.0, 0.45});
+  Viscosity viscosity(*term, parameters, {0.01, {{1.0, 0.1}, {0.5, 1.0}}});
+  if (viscous == kViscous)
+  {
+    terms.push_back(&viscosity);
+    viscosity.beginStep(fine.nodes, 0.005);
+  }
   Points x = fine.nodes, gradient(x.size(), Vec3::Zero());
   for (Vec3& p : x)
   {
@@ -51,17 +66,20 @@ void evaluate(benchmark::State& state, ElementKind kind, MaterialModel model)
   }
   for (auto _ : state)
   {
-    switch (state.range(0))
+    for (EnergyTerm* each : terms)
     {
-      case kValue:
-        benchmark::DoNotOptimize(term->value(x));
-        break;
-      case kGradient:
-        benchmark::DoNotOptimize(term->valueAndGradient(x, gradient));
-        break;
-      default:
-        term->addHessian(x, state.range(0) == kExact ? Curvature::exact : Curvature::positive,
-                         hessian);
+      switch (state.range(0))
+      {
+        case kValue:
+          benchmark::DoNotOptimize(each->value(x));
+          break;
+        case kGradient:
+          benchmark::DoNotOptimize(each->valueAndGradient(x, gradient));
+          break;
+        default:
+          each->addHessian(x, state.range(0) == kExact ? Curvature::exact : Curvature::positive,
+                           hessian);
+      }
     }
   }
   state.counters["nodes"] = static_cast<double>(count);
@@ -72,13 +90,31 @@ void evaluations(benchmark::internal::Benchmark* bench)
 {
   bench->ArgName("what")->DenseRange(kValue, kPositive)->Unit(benchmark::kMillisecond);
 }
-BENCHMARK_CAPTURE(evaluate, neo_hookean_tet4, ElementKind::tet4, MaterialModel::neo_hookean)
+BENCHMARK_CAPTURE(evaluate, neo_hookean_tet4, ElementKind::tet4, MaterialModel::neo_hookean,
+                  kElastic)
     ->Apply(evaluations);
-BENCHMARK_CAPTURE(evaluate, neo_hookean_tet10, ElementKind::tet10, MaterialModel::neo_hookean)
+BENCHMARK_CAPTURE(evaluate, neo_hookean_tet10, ElementKind::tet10, MaterialModel::neo_hookean,
+                  kElastic)
     ->Apply(evaluations);
-BENCHMARK_CAPTURE(evaluate, corotated_tet4, ElementKind::tet4, MaterialModel::corotated)
+BENCHMARK_CAPTURE(evaluate, corotated_tet4, ElementKind::tet4, MaterialModel::corotated, kElastic)
     ->Apply(evaluations);
-BENCHMARK_CAPTURE(evaluate, corotated_tet10, ElementKind::tet10, MaterialModel::corotated)
+BENCHMARK_CAPTURE(evaluate, corotated_tet10, ElementKind::tet10, MaterialModel::corotated, kElastic)
+    ->Apply(evaluations);
+
+BENCHMARK_CAPTURE(evaluate, neo_hookean_log_tet4, ElementKind::tet4, MaterialModel::neo_hookean_log,
+                  kElastic)
+    ->Apply(evaluations);
+BENCHMARK_CAPTURE(evaluate, exponential_tet4, ElementKind::tet4, MaterialModel::exponential,
+                  kElastic)
+    ->Apply(evaluations);
+BENCHMARK_CAPTURE(evaluate, st_venant_kirchhoff_tet4, ElementKind::tet4,
+                  MaterialModel::st_venant_kirchhoff, kElastic)
+    ->Apply(evaluations);
+BENCHMARK_CAPTURE(evaluate, linear_tet4, ElementKind::tet4, MaterialModel::linear, kElastic)
+    ->Apply(evaluations);
+BENCHMARK_CAPTURE(evaluate, viscous_tet4, ElementKind::tet4, MaterialModel::neo_hookean, kViscous)
+    ->Apply(evaluations);
+BENCHMARK_CAPTURE(evaluate, viscous_tet10, ElementKind::tet10, MaterialModel::neo_hookean, kViscous)
     ->Apply(evaluations);
 
 /** A beam of 100 x 20 x 20 mm with `cells` cubes over its thickness, clamped at x = 0, sagging. */

@@ -111,6 +111,45 @@ void Inertia::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& 
   }
 }
 
+void Drag::beginStep(const Points& x, double step)
+{
+  start_ = x;
+  inverse_step_ = 1.0 / step;
+}
+
+double Drag::value(const Points& x)
+{
+  return 0.5 * inverse_step_ *
+         parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
+           double sum = 0.0;
+           for (Index i = begin; i < end; ++i)
+           {
+             sum += coefficients_[i] * (x[i] - start_[i]).squaredNorm();
+           }
+           return sum;
+         });
+}
+
+void Drag::addGradient(const Points& x, Points& gradient)
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    gradient[i] += inverse_step_ * coefficients_[i] * (x[i] - start_[i]);
+  }
+}
+
+void Drag::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& hessian)
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    double* block = hessian.block(hessian.diagonal(static_cast<Index>(i)));
+    const double stiffness = inverse_step_ * coefficients_[i];
+    block[0] += stiffness;
+    block[4] += stiffness;
+    block[8] += stiffness;
+  }
+}
+
 double Gravity::value(const Points& x)
 {
   return -parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {

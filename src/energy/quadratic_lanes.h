@@ -25,18 +25,20 @@ constexpr int kGaussPoints = 4;
 constexpr int kBetween[4][4] = {{0, 4, 5, 6}, {4, 1, 7, 8}, {5, 7, 2, 9}, {6, 8, 9, 3}};
 
 /** What a few quadratic tets of one group need to be evaluated at x. */
+template <typename Material>
 struct QuadraticLanes
 {
-  Lanes at;             ///< of a point: its F, and a quarter of the volume
+  Lanes<Material> at;   ///< of a point: its F, and a quarter of the volume
   Pack edges[3][4][3];  ///< [axis][k][j]: d_kj, edges at vertex k
 };
 
-inline void loadLanes(const TetGroups& groups, Index group, int lane, const double* x,
-                      QuadraticLanes& t)
+template <typename Material>
+SOFT_TISSUE_INLINE void loadLanes(const TetGroups& groups, Index group, int lane, const double* x,
+                                  QuadraticLanes<Material>& t)
 {
   double gathered[30][kLanes];
   gather<10>(groups, group, lane, x, gathered);
-  loadConstants(groups, group, lane, t.at);
+  loadRest(groups, group, lane, t.at);
   t.at.volume *= 0.25;
   for (int i = 0; i < 3; ++i)
   {
@@ -59,7 +61,7 @@ inline void loadLanes(const TetGroups& groups, Index group, int lane, const doub
 }
 
 /** F of a linear tet with these edges, [axis][3]. */
-inline void deform(const Pack (*edges)[3], Lanes& t)
+SOFT_TISSUE_INLINE void deform(const Pack (*edges)[3], DeformedLanes& t)
 {
   for (int i = 0; i < 3; ++i)
   {
@@ -71,9 +73,11 @@ inline void deform(const Pack (*edges)[3], Lanes& t)
   }
 }
 
-/** Calls body(k, t) at each Gauss point k, t with its F. */
-template <typename Body>
-inline void forGaussPoints(QuadraticLanes& t, const Body& body)
+/** Calls body(k, t) at each Gauss point k, t with its F, and with its constants where each has its
+ * own. */
+template <typename Material, typename Body>
+inline void forGaussPoints(const TetGroups& groups, Index group, int lane,
+                           QuadraticLanes<Material>& t, const Body& body)
 {
   Pack far[3][3];
   for (int i = 0; i < 3; ++i)
@@ -96,12 +100,16 @@ inline void forGaussPoints(QuadraticLanes& t, const Body& body)
       }
     }
     deform(edges, t.at);
+    if constexpr (Material::kForm == Form::strain)
+    {
+      loadConstants(groups, kGaussPoints * static_cast<long>(group) + k, lane, t.at);
+    }
     body(k, t.at);
   }
 }
 
 /** Calls body(group, lane, lanes) for all lanes of groups begin ... end - 1. */
-template <typename Body>
+template <typename Material, typename Body>
 inline void forQuadraticLanes(const TetGroups& groups, Index begin, Index end, const double* x,
                               const Body& body)
 {
@@ -109,8 +117,12 @@ inline void forQuadraticLanes(const TetGroups& groups, Index begin, Index end, c
   {
     for (int lane = 0; lane < kTetLanes; lane += kLanes)
     {
-      QuadraticLanes t;
+      QuadraticLanes<Material> t;
       loadLanes(groups, group, lane, x, t);
+      if constexpr (Material::kForm != Form::strain)
+      {
+        loadConstants(groups, group, lane, t.at);
+      }
       body(group, lane, t);
     }
   }

@@ -164,30 +164,31 @@ template <typename Material, bool kProjected>
 void quadraticStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
                         const Index* positions, double* values)
 {
-  forQuadraticLanes(groups, begin, end, x, [&](Index group, int lane, QuadraticLanes& t) {
-    const Index* place =
-        positions + kTetLanes * kQuadraticTetBlocks * static_cast<long>(group) + lane;
-    prefetchBlocks<kQuadraticTetBlocks>(place, values);
-    GaussSums sums;
-    t.at.volume *= 16.0 * kFar * kNear;
-    forGaussPoints(t, [&](int k, const Lanes& at) {
-      materialBlocks<Material, kProjected>(at, sums.table(k));
-    });
-    sums.finish();
-    alignas(64) double rows[kLanes][kRow];
-    for (int first = 0; first < kQuadraticTetBlocks; first += kBatch)
-    {
-      Pack out[9 * kBatch];
-      for (int k = 0; k < kBatch; ++k)
-      {
-        // The last batch is filled up with what nobody reads.
-        const int block = std::min(first + k, kQuadraticTetBlocks - 1);
-        sums.block(kQuadraticBlocks[block], out + 9 * k);
-      }
-      transposeInto<9 * kBatch>(out, rows, 9 * first);
-    }
-    addBlocks<kQuadraticTetBlocks>(rows, place, values);
-  });
+  forQuadraticLanes<Material>(
+      groups, begin, end, x, [&](Index group, int lane, QuadraticLanes<Material>& t) {
+        const Index* place =
+            positions + kTetLanes * kQuadraticTetBlocks * static_cast<long>(group) + lane;
+        prefetchBlocks<kQuadraticTetBlocks>(place, values);
+        GaussSums sums;
+        t.at.volume *= 16.0 * kFar * kNear;
+        forGaussPoints<Material>(groups, group, lane, t, [&](int k, const Lanes<Material>& at) {
+          materialBlocks<Material, kProjected>(at, sums.table(k));
+        });
+        sums.finish();
+        alignas(64) double rows[kLanes][kRow];
+        for (int first = 0; first < kQuadraticTetBlocks; first += kBatch)
+        {
+          Pack out[9 * kBatch];
+          for (int k = 0; k < kBatch; ++k)
+          {
+            // The last batch is filled up with what nobody reads.
+            const int block = std::min(first + k, kQuadraticTetBlocks - 1);
+            sums.block(kQuadraticBlocks[block], out + 9 * k);
+          }
+          transposeInto<9 * kBatch>(out, rows, 9 * first);
+        }
+        addBlocks<kQuadraticTetBlocks>(rows, place, values);
+      });
 }
 
 }  // namespace SOFT_TISSUE_KERNELS

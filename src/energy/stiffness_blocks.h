@@ -85,7 +85,8 @@ inline void linearBlocks(const Block& blockOf, Pack* out)
 /** Adds blocks of a few tets, nine values each in rows[lane], to those of the matrix: a tet after
  * the other, so that the order does not depend on the number of lanes. */
 template <int kBlockCount, std::size_t kRow>
-inline void addBlocks(const double (*rows)[kRow], const Index* positions, double* values)
+SOFT_TISSUE_INLINE void addBlocks(const double (*rows)[kRow], const Index* positions,
+                                  double* values)
 {
   for (int lane = 0; lane < kLanes; ++lane)
   {
@@ -114,13 +115,14 @@ inline PackMat timesTransposed(const PackMat& a, const PackMat& b)
 /**
  * Blocks of a law of the invariants I_C and J, without singular values: with q_a = F b_a and
  * r_a = cof(F) b_a for the shape gradient b_a,
- * K_ab / V = m (b_a . b_b) I + curvature q_a q_b^T + volumetric r_a r_b^T + pressure [F (b_a x
- * b_b)] where [w]_ij = e_ijk w_k.
+ * K_ab / V = m (b_a . b_b) I + curvature (q_a + tilt r_a) (q_b + tilt r_b)^T + volumetric r_a r_b^T
+ * + pressure [F (b_a x b_b)] where [w]_ij = e_ijk w_k.
  */
+template <typename Material>
 class InvariantBlocks
 {
  public:
-  InvariantBlocks(const Lanes& t, const InvariantStiffness& k)
+  InvariantBlocks(const DeformedLanes& t, const InvariantStiffness& k)
       : k_(k),
         q_(timesTransposed(t.gradients, t.f)),
         r_(timesTransposed(t.gradients, cofactor(t.f))),
@@ -131,6 +133,10 @@ class InvariantBlocks
     k_.curvature *= t.volume;
     k_.volumetric *= t.volume;
     k_.pressure *= t.volume;
+    for (int n = 0; n < 9 && Material::kTilt != 0.0; ++n)
+    {
+      q_.m[n / 3][n % 3] += Material::kTilt * r_.m[n / 3][n % 3];
+    }
   }
 
   PackMat operator()(int a, int b) const
@@ -174,7 +180,7 @@ template <typename Material, bool kProjected>
 class PrincipalBlocks
 {
  public:
-  explicit PrincipalBlocks(const Lanes& t) : svd_(signedSvd(t.f))
+  explicit PrincipalBlocks(const Lanes<Material>& t) : svd_(signedSvd(t.f))
   {
     const Pack zero = {};
     PrincipalStiffness k = Material::principal(svd_.sigma, t.constants);
@@ -238,13 +244,101 @@ class PrincipalBlocks
   Pack cross_[3];
 };
 
-/** Those of a law as they are, by the way that is the shorter. */
-template <typename Material, bool kProjected>
-inline void materialBlocks(const Lanes& t, Pack* out)
+/** Blocks of the linear law, constants mu and lambda:
+ * K_ab / V = mu (b_a . b_b) I + mu b_b b_a^T + lambda b_a b_b^T. */
+class HookeBlocks
 {
-  if constexpr (Material::kOfInvariants && !kProjected)
+ public:
+  explicit HookeBlocks(const Lanes<Linear>& t)
+      : gradients_(t.gradients), mu_(t.volume * t.constants[0]), lambda_(t.volume * t.constants[1])
+  {}
+
+  PackMat operator()(int a, int b) const
   {
-    linearBlocks(InvariantBlocks(t, Material::ofInvariants(t.f, t.constants)), out);
+    const Pack* ba = gradients_.m[a];
+    const Pack* bb = gradients_.m[b];
+    const Pack shear = mu_ * (ba[0] * bb[0] + ba[1] * bb[1] + ba[2] * bb[2]);
+    PackMat block;
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        const Pack both = mu_ * bb[i] * ba[j] + lambda_ * ba[i] * bb[j];
+        block.m[i][j] = i == j ? both + shear : both;
+      }
+    }
+    return block;
+  }
+
+ private:
+  const PackMat& gradients_;
+  Pack mu_, lambda_;
+};
+
+/**
+ * Blocks of what tets remember: with S the second Piola-Kirchhoff stress and q_a = F b_a,
+ * K_ab / V = (b_a . S b_b) I + mu (b_a . b_b) F F^T + mu q_b q_a^T + lambda q_a q_b^T.
+ * All but the first is positive; the projected one has the positive part of S in it.
+ */
+template <bool kProjected>
+class MemoryBlocks
+{
+ public:
+  explicit MemoryBlocks(const Lanes<StrainMemory>& t)
+      : q_(timesTransposed(t.gradients, t.f)),
+        metric_(timesTransposed(t.gradients, t.gradients)),
+        left_(timesTransposed(t.f, t.f)),
+        mu_(t.volume * t.constants[0]),
+        lambda_(t.volume * t.constants[1])
+  {
+    PackMat s = StrainMemory::secondStress(t.f, t.constants);
+    if (kProjected)
+    {
+      projectSymmetric(s);
+    }
+    stressed_ = timesTransposed(timesTransposed(t.gradients, s), t.gradients);
+    for (int n = 0; n < 9; ++n)
+    {
+      stressed_.m[n / 3][n % 3] *= t.volume;
+    }
+  }
+
+  PackMat operator()(int a, int b) const
+  {
+    PackMat block;
+    const Pack shear = mu_ * metric_.m[a][b];
+    for (int i = 0; i < 3; ++i)
+    {
+      const Pack mixed = mu_ * q_.m[b][i], own = lambda_ * q_.m[a][i];
+      for (int j = 0; j < 3; ++j)
+      {
+        const Pack both = shear * left_.m[i][j] + mixed * q_.m[a][j] + own * q_.m[b][j];
+        block.m[i][j] = i == j ? both + stressed_.m[a][b] : both;
+      }
+    }
+    return block;
+  }
+
+ private:
+  PackMat q_, metric_, left_, stressed_;
+  Pack mu_, lambda_;
+};
+
+/** Those of a law by the way that is the shortest; a law that is positive needs no projection. */
+template <typename Material, bool kProjected>
+inline void materialBlocks(const Lanes<Material>& t, Pack* out)
+{
+  if constexpr (Material::kForm == Form::linear)
+  {
+    linearBlocks(HookeBlocks(t), out);
+  }
+  else if constexpr (Material::kForm == Form::strain)
+  {
+    linearBlocks(MemoryBlocks<kProjected>(t), out);
+  }
+  else if constexpr (Material::kForm == Form::invariants && !kProjected)
+  {
+    linearBlocks(InvariantBlocks<Material>(t, Material::stiffness(t.f, t.constants)), out);
   }
   else
   {

@@ -15,7 +15,7 @@ namespace SOFT_TISSUE_KERNELS
 template <typename Material>
 void tetEnergy(const TetGroups& groups, Index begin, Index end, const double* x, double* energies)
 {
-  forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
     store(energies + 8 * static_cast<long>(group) + lane,
           t.volume * Material::energy(t.f, t.constants));
   });
@@ -25,7 +25,7 @@ template <typename Material>
 void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x, double* gradient,
                  double* energies)
 {
-  forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
     store(energies + 8 * static_cast<long>(group) + lane,
           t.volume * Material::energy(t.f, t.constants));
     const PackMat p = Material::stress(t.f, t.constants);
@@ -47,7 +47,7 @@ template <typename Material>
 void tetState(const TetGroups& groups, Index begin, Index end, const double* x, double* det_f,
               double* von_mises)
 {
-  forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
     const long at = 8 * static_cast<long>(group) + lane;
     store(det_f + at, determinant(t.f));
     if (von_mises != nullptr)
@@ -58,10 +58,39 @@ void tetState(const TetGroups& groups, Index begin, Index end, const double* x, 
 }
 
 template <typename Material>
+void tetRemember(const TetGroups& groups, Index begin, Index end, const double* x, double* six)
+{
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
+    remember<Material>(t.f, t.constants, six + 6 * kTetLanes * static_cast<long>(group) + lane);
+  });
+}
+
+const TetKernels& memoryKernels()
+{
+  static const TetKernels kernels = {4,
+                                     1,
+                                     1,
+                                     StrainMemory::kConstants,
+                                     kTetBlocks,
+                                     kBlocks,
+                                     nullptr,
+                                     tetEnergy<StrainMemory>,
+                                     tetGradient<StrainMemory>,
+                                     tetStiffness<StrainMemory, false>,
+                                     tetStiffness<StrainMemory, true>,
+                                     nullptr,
+                                     tetRemember<StrainMemory>,
+                                     nullptr};
+  return kernels;
+}
+
+template <typename Material>
 const TetKernels& kernelsOf()
 {
   static const TetKernels kernels = {4,
                                      1,
+                                     1,
+                                     Material::kConstants,
                                      kTetBlocks,
                                      kBlocks,
                                      Material::constants,
@@ -69,19 +98,15 @@ const TetKernels& kernelsOf()
                                      tetGradient<Material>,
                                      tetStiffness<Material, false>,
                                      tetStiffness<Material, true>,
-                                     tetState<Material>};
+                                     tetState<Material>,
+                                     tetRemember<Material>,
+                                     &memoryKernels()};
   return kernels;
 }
 
 const TetKernels& kernelsFor(MaterialModel model)
 {
-  switch (model)
-  {
-    case MaterialModel::corotated:
-      return kernelsOf<Corotated>();
-    default:
-      return kernelsOf<NeoHookean>();
-  }
+  return withLaw(model, [](auto law) -> const TetKernels& { return kernelsOf<decltype(law)>(); });
 }
 
 }  // namespace SOFT_TISSUE_KERNELS

@@ -12,19 +12,25 @@ namespace soft_tissue
 {
 namespace SOFT_TISSUE_KERNELS
 {
-/** What a few tets of one group need to be evaluated at x. */
-struct Lanes
+/** A few tets of one group, deformed. */
+struct DeformedLanes
 {
   PackMat gradients;  ///< rows: rest gradients of the shape functions of nodes 1, 2, 3
   PackMat f;          ///< deformation gradient
   Pack volume;
-  Pack constants[kMaterialConstants];
+};
+
+/** What they need to be evaluated at x. */
+template <typename Material>
+struct Lanes : DeformedLanes
+{
+  Pack constants[Material::kConstants];  ///< of the law; or of a point, of what it remembers
 };
 
 /** Positions of the kNodes nodes of each of a few tets: gathered[3 node + axis][lane]. */
 template <int kNodes>
-inline void gather(const TetGroups& groups, Index group, int lane, const double* x,
-                   double (*gathered)[kLanes])
+SOFT_TISSUE_INLINE void gather(const TetGroups& groups, Index group, int lane, const double* x,
+                               double (*gathered)[kLanes])
 {
   const Index* nodes = groups.nodes + kTetLanes * kNodes * static_cast<long>(group) + lane;
   for (int node = 0; node < kNodes; ++node)
@@ -39,8 +45,20 @@ inline void gather(const TetGroups& groups, Index group, int lane, const double*
   }
 }
 
-/** All but F. */
-inline void loadConstants(const TetGroups& groups, Index group, int lane, Lanes& lanes)
+/** Constants of a law, or of one of the points of what tets remember. */
+template <typename Material>
+SOFT_TISSUE_INLINE void loadConstants(const TetGroups& groups, long place, int lane,
+                                      Lanes<Material>& lanes)
+{
+  for (int k = 0; k < Material::kConstants; ++k)
+  {
+    lanes.constants[k] = load(groups.constants + 8 * (Material::kConstants * place + k) + lane);
+  }
+}
+
+/** All but F and the constants. */
+SOFT_TISSUE_INLINE void loadRest(const TetGroups& groups, Index group, int lane,
+                                 DeformedLanes& lanes)
 {
   const double* gradients = groups.gradients + 72 * static_cast<long>(group) + lane;
   for (int k = 0; k < 9; ++k)
@@ -48,18 +66,16 @@ inline void loadConstants(const TetGroups& groups, Index group, int lane, Lanes&
     lanes.gradients.m[k / 3][k % 3] = load(gradients + 8 * k);
   }
   lanes.volume = load(groups.volumes + 8 * static_cast<long>(group) + lane);
-  for (int k = 0; k < kMaterialConstants; ++k)
-  {
-    lanes.constants[k] =
-        load(groups.constants + 8 * (kMaterialConstants * static_cast<long>(group) + k) + lane);
-  }
 }
 
-inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const double* x)
+template <typename Material>
+SOFT_TISSUE_INLINE Lanes<Material> loadLanes(const TetGroups& groups, Index group, int lane,
+                                             const double* x)
 {
-  Lanes lanes;
+  Lanes<Material> lanes;
   double gathered[12][kLanes];
   gather<4>(groups, group, lane, x, gathered);
+  loadRest(groups, group, lane, lanes);
   loadConstants(groups, group, lane, lanes);
   for (int i = 0; i < 3; ++i)
   {
@@ -77,7 +93,7 @@ inline Lanes loadLanes(const TetGroups& groups, Index group, int lane, const dou
 }
 
 /** Calls body(group, lane, lanes) for all lanes of groups begin ... end - 1. */
-template <typename Body>
+template <typename Material, typename Body>
 inline void forLanes(const TetGroups& groups, Index begin, Index end, const double* x,
                      const Body& body)
 {
@@ -85,7 +101,7 @@ inline void forLanes(const TetGroups& groups, Index begin, Index end, const doub
   {
     for (int lane = 0; lane < kTetLanes; lane += kLanes)
     {
-      body(group, lane, loadLanes(groups, group, lane, x));
+      body(group, lane, loadLanes<Material>(groups, group, lane, x));
     }
   }
 }
@@ -98,7 +114,7 @@ constexpr int padded(int count)
 
 /** Exchanges the off-diagonal quarters of each square of 2 kSize lanes of two packs. */
 template <int kSize, int... kLane>
-inline void exchange(Pack& a, Pack& b, std::integer_sequence<int, kLane...>)
+SOFT_TISSUE_INLINE void exchange(Pack& a, Pack& b, std::integer_sequence<int, kLane...>)
 {
   const Pack old = a;
   a = __builtin_shuffle(old, b, Mask{(kLane & kSize ? kLane - kSize + kLanes : kLane)...});
@@ -108,7 +124,7 @@ inline void exchange(Pack& a, Pack& b, std::integer_sequence<int, kLane...>)
 /** Turns the square of packs at v[0] ... v[kLanes - 1]: lane j of pack i becomes lane i of pack j.
  */
 template <int kSize = 1>
-inline void transposeSquare(Pack* v)
+SOFT_TISSUE_INLINE void transposeSquare(Pack* v)
 {
   for (int i = 0; i < kLanes; ++i)
   {
@@ -126,7 +142,7 @@ inline void transposeSquare(Pack* v)
 /** rows[lane][first + k] = value[k] of each lane; value holds padded(kCount) packs and is used up.
  */
 template <int kCount, std::size_t kRow>
-inline void transposeInto(Pack* value, double (*rows)[kRow], int first)
+SOFT_TISSUE_INLINE void transposeInto(Pack* value, double (*rows)[kRow], int first)
 {
   for (int k = 0; k < kCount; k += kLanes)
   {
@@ -139,14 +155,15 @@ inline void transposeInto(Pack* value, double (*rows)[kRow], int first)
 }
 
 template <int kCount>
-inline void transpose(Pack* value, double (*rows)[padded(kCount)])
+SOFT_TISSUE_INLINE void transpose(Pack* value, double (*rows)[padded(kCount)])
 {
   transposeInto<kCount>(value, rows, 0);
 }
 
 /** Adds the forces g[3 node + axis] of a few tets to their nodes; uses g up. */
 template <int kNodes>
-inline void scatter(const TetGroups& groups, Index group, int lane, Pack* g, double* gradient)
+SOFT_TISSUE_INLINE void scatter(const TetGroups& groups, Index group, int lane, Pack* g,
+                                double* gradient)
 {
   constexpr int kSize = 3 * kNodes;
   for (int k = kSize; k < padded(kSize); ++k)
@@ -168,13 +185,15 @@ inline void scatter(const TetGroups& groups, Index group, int lane, Pack* g, dou
   }
 }
 
-/** Equivalent (von Mises) stress of the Cauchy stress P F^T / J; told even where J <= 0. */
+/** Equivalent (von Mises) stress of the Cauchy stress P F^T / J; told even where J <= 0. The linear
+ * law knows one stress only. */
 template <typename Material>
 inline Pack vonMises(const PackMat& f, const Pack* constants)
 {
+  constexpr bool kIsCauchy = Material::kForm == Form::linear;
   const PackMat p = Material::stress(f, constants);
-  PackMat s;
-  for (int a = 0; a < 3; ++a)
+  PackMat s = p;
+  for (int a = 0; a < 3 && !kIsCauchy; ++a)
   {
     for (int b = 0; b < 3; ++b)
     {
@@ -184,7 +203,7 @@ inline Pack vonMises(const PackMat& f, const Pack* constants)
   const Pack d0 = s.m[0][0] - s.m[1][1], d1 = s.m[1][1] - s.m[2][2], d2 = s.m[2][2] - s.m[0][0];
   const Pack shear = s.m[0][1] * s.m[0][1] + s.m[1][2] * s.m[1][2] + s.m[0][2] * s.m[0][2];
   const Pack size = sqrt(0.5 * (d0 * d0 + d1 * d1 + d2 * d2) + 3.0 * shear);
-  return size / max(abs(determinant(f)), splat(1e-12));
+  return kIsCauchy ? size : size / max(abs(determinant(f)), splat(1e-12));
 }
 
 }  // namespace SOFT_TISSUE_KERNELS

@@ -13,7 +13,7 @@ template <typename Material, bool kProjected>
 void tetStiffness(const TetGroups& groups, Index begin, Index end, const double* x,
                   const Index* positions, double* values)
 {
-  forLanes(groups, begin, end, x, [&](Index group, int lane, const Lanes& t) {
+  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
     constexpr int kSize = 9 * kTetBlocks;
     Pack out[padded(kSize)];
     materialBlocks<Material, kProjected>(t, out);

@@ -6,8 +6,6 @@
 
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
-#include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
-#include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/geometry/triangle_tree.h"
 
 namespace soft_tissue
@@ -96,6 +94,8 @@ void applyRegions(const TissueConfig& config, const std::string& where, TissueMo
             region.young_modulus_pa.value_or(model.stiffness[t].young_modulus);
         model.stiffness[t].poisson_ratio =
             region.poisson_ratio.value_or(model.stiffness[t].poisson_ratio);
+        model.stiffness[t].stiffening = region.stiffening.value_or(model.stiffness[t].stiffening);
+        model.laws[t] = region.model.value_or(model.laws[t]);
         model.densities[t] = region.density_kg_per_m3.value_or(model.densities[t]);
       }
     }
@@ -195,7 +195,10 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
   model.info.surface = extractBoundary(static_cast<Index>(rest.nodes.size()), rest.tets);
   hold(config, where, model);
   const MaterialConfig& material = config.material;
-  model.stiffness.assign(elements, {material.young_modulus_pa, material.poisson_ratio});
+  TetStiffnessParameters stiffness = {material.young_modulus_pa, material.poisson_ratio};
+  stiffness.stiffening = material.stiffening.value_or(stiffness.stiffening);
+  model.laws.assign(elements, material.model);
+  model.stiffness.assign(elements, stiffness);
   model.densities.assign(elements, material.density_kg_per_m3);
   applyRegions(config, where, model);
   return model;
@@ -228,17 +231,6 @@ SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& wher
   model.info.surface = surfaceOf(static_cast<Index>(nodes.size()), triangles);
   hold(config, where, model);
   return model;
-}
-
-std::unique_ptr<Elasticity> makeElasticity(const TissueModel& model, MaterialModel law,
-                                           Index first_node)
-{
-  if (model.quadratic)
-  {
-    return std::make_unique<QuadraticTetElasticity>(*model.quadratic, law, model.stiffness,
-                                                    first_node);
-  }
-  return std::make_unique<TetElasticity>(model.info.rest, law, model.stiffness, first_node);
 }
 
 void addMasses(const TissueModel& model, Index first_node, std::vector<double>& masses,

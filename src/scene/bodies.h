@@ -22,6 +22,7 @@ struct SoftBodyModel
 struct TissueModel : SoftBodyModel
 {
   std::optional<QuadraticTetMesh> quadratic;      ///< its elements, where they are not info.rest's
+  std::vector<MaterialModel> laws;                ///< per element
   std::vector<TetStiffnessParameters> stiffness;  ///< per element
   std::vector<double> densities;                  ///< per element, kg/m^3
 };
@@ -38,10 +39,6 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where);
  * @throws Error for a bad mesh or one with tets, a fixed box without nodes
  */
 SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& where);
-
-/** Its elastic energy, with its node 0 in row `first_node`. */
-std::unique_ptr<Elasticity> makeElasticity(const TissueModel& model, MaterialModel law,
-                                           Index first_node);
 
 /**
  * Adds its masses, and the masses by which gravity pulls at its nodes, kg.

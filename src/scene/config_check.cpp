@@ -75,6 +75,22 @@ void orderPair(const Item& between, const SceneConfig& scene, ContactConfig& con
   }
 }
 
+/** Damping by mass is of velocities, which are zero without inertia. */
+template <class Bodies>
+void checkDrag(const Item& item, const Bodies& bodies, const char* list, Stepper stepper)
+{
+  for (std::size_t k = 0; k < bodies.size() && stepper == Stepper::quasi_static; ++k)
+  {
+    if (bodies[k].material.mass_damping_per_s > 0.0)
+    {
+      item.at(list)
+          .at(k)
+          .at("material")
+          .reject("has mass_damping_per_s, which needs stepper implicit_euler");
+    }
+  }
+}
+
 bool samePair(const ContactConfig& a, const ContactConfig& b)
 {
   return (a.tissue == b.tissue && a.other == b.other) ||
@@ -94,6 +110,8 @@ void checkScene(const Item& item, SceneConfig& scene)
     item.rejectKey("tissues", "missing, must have a tissue, or membranes a membrane");
   }
   checkNames(item);
+  checkDrag(item, scene.tissues, "tissues", scene.solver.stepper);
+  checkDrag(item, scene.membranes, "membranes", scene.solver.stepper);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
   {
     ContactConfig& contact = scene.contacts[i];

@@ -23,6 +23,7 @@ void Scene::Impl::setOff()
 void Scene::Impl::resetWorld()
 {
   x_ = x_rest_;
+  forTets([](TissueElasticity& tets) { tets.forget(); });
   setOff();
   for (std::size_t k = 0; k < tools_.size(); ++k)
   {
@@ -61,6 +62,13 @@ std::uint64_t Scene::Impl::stateHash() const
   hash.add(x_.data(), x_.size() * sizeof(Vec3));
   hash.add(v_.data(), v_.size() * sizeof(Vec3));
   hash.add(acceleration_.data(), acceleration_.size() * sizeof(Vec3));
+  for (const Tissue& tissue : tissues_)
+  {
+    if (tissue.tets != nullptr)
+    {
+      tissue.tets->addTo(hash);
+    }
+  }
   for (const Tool& tool : tools_)
   {
     hash.add(tool.X_WT.data(), 16 * sizeof(double));

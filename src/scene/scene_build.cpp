@@ -44,6 +44,7 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   v_.resize(x_.size());
   acceleration_.resize(x_.size());
   inertia_ = std::make_unique<Inertia>(masses_);
+  makeDrag();
   gravity_ = std::make_unique<Gravity>(load_masses_, config_.gravity_m_per_s2);
   makeSolver();
   setOff();
@@ -110,10 +111,10 @@ void Scene::Impl::addTissue(std::size_t index)
   const TissueModel model = makeTissue(config_.tissues[index], itemOf(index));
   Tissue& tissue = addSoftBody(index, model);
   tissue.neighbours = elementNeighbours(model);
-  std::unique_ptr<Elasticity> elasticity =
-      makeElasticity(model, config_.tissues[index].material.model, tissue.first_node);
-  tissue.tets = elasticity.get();
-  tissue.elasticity = std::move(elasticity);
+  const MaterialConfig& material = config_.tissues[index].material;
+  tissue.tets = std::make_unique<TissueElasticity>(
+      model, ViscosityParameters{material.stiffness_damping_s, material.relaxation},
+      tissue.first_node);
   addMasses(model, tissue.first_node, masses_, load_masses_);
 }
 
@@ -125,7 +126,7 @@ void Scene::Impl::addMembrane(std::size_t index)
   const TriMesh rest = {info.rest.nodes, info.surface.triangles};
   membrane.neighbours = membraneNeighbours(membrane.node_count, rest.triangles);
   const MaterialConfig& material = config.material;
-  membrane.elasticity = std::make_unique<MembraneElasticity>(
+  membrane.membrane = std::make_unique<MembraneElasticity>(
       rest,
       std::vector<MembraneParameters>(
           rest.triangles.size(),
@@ -136,6 +137,28 @@ void Scene::Impl::addMembrane(std::size_t index)
   for (std::vector<double>* masses : {&masses_, &load_masses_})
   {
     addLumpedMasses(rest, surface_densities, membrane.first_node, *masses);
+  }
+}
+
+/** Damping in proportion to mass, if a body has any. */
+void Scene::Impl::makeDrag()
+{
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
+  {
+    const double damping = config_.softBody(k).material.mass_damping_per_s;
+    if (damping > 0.0)
+    {
+      drags_.resize(masses_.size(), 0.0);
+      const Index first = tissues_[k].first_node;
+      for (Index i = first; i < first + tissues_[k].node_count; ++i)
+      {
+        drags_[i] = damping * masses_[i];
+      }
+    }
+  }
+  if (!drags_.empty())
+  {
+    drag_ = std::make_unique<Drag>(drags_);
   }
 }
 

@@ -9,10 +9,10 @@
 #include "soft_tissue_sim/contact/obstacle_contact.h"
 #include "soft_tissue_sim/contact/tissue_contact.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
-#include "soft_tissue_sim/energy/elasticity.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/scene/scene.h"
 #include "soft_tissue_sim/solver/newton.h"
+#include "tissue_elasticity.h"
 
 namespace soft_tissue
 {
@@ -57,11 +57,11 @@ class Scene::Impl
   {
     Index first_node = 0;
     Index node_count = 0;
-    Adjacency neighbours;  ///< nodes that elasticity couples
-    std::unique_ptr<EnergyTerm> elasticity;
-    Elasticity* tets = nullptr;  ///< the elasticity of a tissue
-    double short_edge = 0.0;     ///< see TissueBody
-    double inner_radius = 0.0;   ///< see innerRadius(); 0: not known yet
+    Adjacency neighbours;                    ///< nodes that elasticity couples
+    std::unique_ptr<TissueElasticity> tets;  ///< of a tissue
+    std::unique_ptr<EnergyTerm> membrane;    ///< elasticity of a membrane
+    double short_edge = 0.0;                 ///< see TissueBody
+    double inner_radius = 0.0;               ///< see innerRadius(); 0: not known yet
   };
   /** Nodes that key frames move. */
   struct MovedNodes
@@ -113,6 +113,7 @@ class Scene::Impl
   void addTool(std::size_t index);
   void addObstacle(std::size_t index);
   void addContact(std::size_t index);
+  void makeDrag();
   void makeSolver();
   void addToolContact(const ContactConfig& config, Contact& contact);
   void addTissueContact(const ContactConfig& config, Contact& contact);
@@ -130,6 +131,18 @@ class Scene::Impl
   TissueBody surfaceFor(double size_m, const ContactConfig& config, Contact& contact) const;
   FieldConfig fieldConfigOf(std::size_t tissue) const;
   std::unique_ptr<DistanceField> fieldOf(std::size_t tissue) const;
+  /** Calls visit(tets) for each tissue's. */
+  template <typename Visit>
+  void forTets(const Visit& visit)
+  {
+    for (Tissue& tissue : tissues_)
+    {
+      if (tissue.tets != nullptr)
+      {
+        visit(*tissue.tets);
+      }
+    }
+  }
   void aimTools();
   int partsOfStep() const;
   double mostMotion(const Contact& contact) const;
@@ -152,6 +165,7 @@ class Scene::Impl
   Motion motionOf(std::size_t group, const Points& x) const;
   void findGroups();
   void takeVelocities(double h);
+  Vec3 missOf(std::size_t group, const Motion& start, double h) const;
   void keepSpin(std::size_t group, double h);
   void setOff();
   void stop();
@@ -170,7 +184,9 @@ class Scene::Impl
   Points spin_;                     ///< per free group: its spin when the step began
   std::vector<double> masses_;
   std::vector<double> load_masses_;  ///< what gravity pulls at
+  std::vector<double> drags_;        ///< kg/s; empty: none
   std::unique_ptr<Inertia> inertia_;
+  std::unique_ptr<Drag> drag_;  ///< null: none
   std::unique_ptr<Gravity> gravity_;
   std::unique_ptr<NewtonSolver> newton_;
   NewtonOptions newton_options_;

@@ -89,14 +89,33 @@ Scene::Impl::Motion Scene::Impl::motionOf(std::size_t group, const Points& x) co
   return motion;
 }
 
+/** How far a free group that began like this is from where its momentum has it at the end, m. */
+Vec3 Scene::Impl::missOf(std::size_t group, const Motion& start, double h) const
+{
+  const Vec3 reached = motionOf(group, x_).centre;
+  const Vec3 flown = h * start.velocity + h * h * config_.gravity_m_per_s2;
+  if (drag_ == nullptr)
+  {
+    return start.centre + flown - reached;
+  }
+  // M miss = M (flown - way) - h sum c (way of the node + miss)
+  Vec3 dragged = Vec3::Zero();
+  double heavier = start.mass;
+  forEachNodeOf(group, [&](Index i) {
+    dragged += h * drags_[i] * (x_[i] - before_[i]);
+    heavier += h * drags_[i];
+  });
+  return (start.mass * (flown - (reached - start.centre)) - dragged) / heavier;
+}
+
 /**
  * Takes the velocities of a step of length h that went from before_ to x_.
  *
- * Of bodies that nothing outside holds, momentum changes by gravity alone, and spin not at all. The
- * first is what the minimiser would have, and is met however far from it the minimisation stopped:
- * moving all as one changes no other force. The second implicit Euler loses: its velocity is that
- * of the chord from before_ to x_. It is turned on by half the step's rotation to the end of the
- * step, and given the spin that is missing.
+ * Of bodies that nothing outside holds, momentum changes by gravity and drag alone, and spin by
+ * drag. The first is what the minimiser would have, and is met however far from it the minimisation
+ * stopped: moving all as one changes no other force. The second implicit Euler loses: its velocity
+ * is that of the chord from before_ to x_. It is turned on by half the step's rotation to the end
+ * of the step, and given the spin that is missing.
  */
 void Scene::Impl::takeVelocities(double h)
 {
@@ -108,8 +127,7 @@ void Scene::Impl::takeVelocities(double h)
     {
       const Motion start = motionOf(k, before_);
       spin_[k] = start.spin;
-      const Vec3 centre = start.centre + h * start.velocity + h * h * config_.gravity_m_per_s2;
-      const Vec3 off = centre - motionOf(k, x_).centre;
+      const Vec3 off = missOf(k, start, h);
       forEachNodeOf(k, [&](Index i) { x_[i] += off; });
     }
   }
@@ -131,6 +149,12 @@ void Scene::Impl::takeVelocities(double h)
 void Scene::Impl::keepSpin(std::size_t group, double h)
 {
   const Motion chord = motionOf(group, x_);
+  if (drag_ != nullptr)
+  {
+    forEachNodeOf(group, [&](Index i) {
+      spin_[group] -= h * drags_[i] * (x_[i] - chord.centre).cross(v_[i]);
+    });
+  }
   const Vec3 turning = angularVelocity(chord.inertia, chord.spin);
   const double angle = 0.5 * h * turning.norm();
   const Mat3 on = angle > 0.0 ? Eigen::AngleAxisd(angle, turning.normalized()).toRotationMatrix()

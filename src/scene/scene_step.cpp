@@ -41,6 +41,7 @@ const StepReport& Scene::Impl::step()
   report_.time_s = start_s;
   report_.parts = tools_went_alone ? 1 : partsOfStep();
   before_step_ = x_;
+  forTets([](TissueElasticity& tets) { tets.save(); });
   for (int part = 0; part < report_.parts && !report_.held; ++part)
   {
     const double from = static_cast<double>(part) / report_.parts;
@@ -48,6 +49,7 @@ const StepReport& Scene::Impl::step()
     if (!advance(from, to, 0))
     {
       x_ = before_step_;
+      forTets([](TissueElasticity& tets) { tets.restore(); });
       stop();
       report_.held = true;
     }
@@ -102,10 +104,23 @@ bool Scene::Impl::minimise(double from, double to)
   {
     inertia_->beginStep(x_, v_, h);
     terms_.push_back(inertia_.get());
+    if (drag_ != nullptr)
+    {
+      drag_->beginStep(x_, h);
+      terms_.push_back(drag_.get());
+    }
   }
   for (const Tissue& tissue : tissues_)
   {
-    terms_.push_back(tissue.elasticity.get());
+    if (tissue.tets != nullptr)
+    {
+      tissue.tets->beginStep(x_, h);
+      tissue.tets->addTerms(terms_);
+    }
+    else
+    {
+      terms_.push_back(tissue.membrane.get());
+    }
   }
   const std::size_t first_contact = terms_.size();
   before_ = x_;
@@ -144,12 +159,15 @@ bool Scene::Impl::minimise(double from, double to)
   {
     standStillIfBetter(newton.value);
   }
-  if (!dynamic)
+  if (dynamic)
+  {
+    takeVelocities(h);
+  }
+  else
   {
     stop();
-    return true;
   }
-  takeVelocities(h);
+  forTets([&](TissueElasticity& tets) { tets.endStep(x_); });
   return true;
 }
 
@@ -230,13 +248,9 @@ void Scene::Impl::finishStep()
   collectContacts();
   const Timer timer;
   report_.min_det_f = config_.tissues.empty() ? 1.0 : 1e300;
-  for (const Tissue& tissue : tissues_)
-  {
-    if (tissue.tets != nullptr)
-    {
-      report_.min_det_f = std::min(report_.min_det_f, tissue.tets->minDetF(x_));
-    }
-  }
+  forTets([&](TissueElasticity& tets) {
+    report_.min_det_f = std::min(report_.min_det_f, tets.minDetF(x_));
+  });
   report_.ms.fem += 1e3 * timer.seconds();
   for (const Contact& contact : contacts_)
   {

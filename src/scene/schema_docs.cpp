@@ -10,10 +10,11 @@ namespace
 /** The unit a key's ending names, as it is written in tables. */
 std::string unitOf(const std::string& key)
 {
-  constexpr std::array<std::array<const char*, 2>, 8> units = {{{"_pa_per_m", "Pa/m"},
+  constexpr std::array<std::array<const char*, 2>, 9> units = {{{"_pa_per_m", "Pa/m"},
                                                                 {"_m_per_s2", "m/s²"},
                                                                 {"_m_per_s", "m/s"},
                                                                 {"_kg_per_m3", "kg/m³"},
+                                                                {"_per_s", "1/s"},
                                                                 {"_pa", "Pa"},
                                                                 {"_rad", "rad"},
                                                                 {"_s", "s"},

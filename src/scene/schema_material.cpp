@@ -14,7 +14,26 @@ struct MaterialKeys
   std::optional<double> young_modulus_pa;
   std::optional<double> poisson_ratio;
   std::optional<double> density_kg_per_m3;
+  std::optional<double> stiffening;
+  std::optional<double> mass_damping_per_s;
+  std::optional<double> stiffness_damping_s;
+  std::optional<std::vector<RelaxationBranch>> relaxation;
 };
+
+const Section<RelaxationBranch>& relaxationSection()
+{
+  static const Section<RelaxationBranch> section =
+      Section<RelaxationBranch>("relaxation",
+                                "A stress that follows each change of the elastic one and then "
+                                "goes away: a term of a Prony series.")
+          .required("relative_modulus", &RelaxationBranch::relative_modulus,
+                    number(0.0, 1000.0, Ends::open_below),
+                    "Its stiffness, in that of the elastic stress, which stays. A published term g "
+                    "of the stiffness at first is g / (1 - the sum of all).")
+          .required("relaxation_time_s", &RelaxationBranch::relaxation_time,
+                    number(0.0, 1e6, Ends::open_below), "After which 1/e of it is left.");
+  return section;
+}
 
 template <class V>
 Kind<std::optional<V>> orPreset(const Kind<V>& kind)
@@ -33,7 +52,7 @@ const Section<MaterialKeys>& materialSection()
               "model", &MaterialKeys::model,
               maybe(materialModel(),
                     "the preset's, else " + materialModel().show(MaterialConfig{}.model), false),
-              "Strain energy.")
+              "Strain energy; docs/methods.md has the formulas.")
           .optional("preset", &MaterialKeys::preset, maybe(text(), "none", false),
                     "Name of an entry of the materials file.")
           .optional("young_modulus_pa", &MaterialKeys::young_modulus_pa, orPreset(youngModulus()),
@@ -41,7 +60,22 @@ const Section<MaterialKeys>& materialSection()
           .optional("poisson_ratio", &MaterialKeys::poisson_ratio, orPreset(poissonRatio()),
                     "Poisson's ratio at small strain.")
           .optional("density_kg_per_m3", &MaterialKeys::density_kg_per_m3, orPreset(density()),
-                    "Density at rest.");
+                    "Density at rest.")
+          .optional("stiffening", &MaterialKeys::stiffening, orPreset(stiffening()),
+                    "How fast the exponential model stiffens: its shear stiffness grows by a "
+                    "factor e where I_C - 3 of a stretch that keeps volume is one over this.")
+          .optional("mass_damping_per_s", &MaterialKeys::mass_damping_per_s,
+                    maybe(massDamping(), "the preset's, else 0", false),
+                    "Force against a velocity, per mass and velocity: it slows rigid motion too. "
+                    "Not for quasi_static.")
+          .optional("stiffness_damping_s", &MaterialKeys::stiffness_damping_s,
+                    maybe(stiffnessDamping(), "the preset's, else 0", false),
+                    "Stress against a rate of strain, in the stiffness at small strain; rigid "
+                    "motion goes on. Not for membranes.")
+          .optional("relaxation", &MaterialKeys::relaxation,
+                    maybe(relaxation(), "the preset's, else []", false),
+                    "What of its stress is lost with time; Young's modulus is what stays. Not for "
+                    "membranes.");
   return section;
 }
 
@@ -80,6 +114,15 @@ MaterialConfig complete(const Item& item, const MaterialKeys& keys)
   material.young_modulus_pa = keys.young_modulus_pa.value_or(material.young_modulus_pa);
   material.poisson_ratio = keys.poisson_ratio.value_or(material.poisson_ratio);
   material.density_kg_per_m3 = keys.density_kg_per_m3.value_or(material.density_kg_per_m3);
+  if (keys.stiffening && material.model != MaterialModel::exponential)
+  {
+    item.at("stiffening").rejectValue("is for model exponential, which is not asked for");
+  }
+  material.mass_damping_per_s = keys.mass_damping_per_s.value_or(material.mass_damping_per_s);
+  material.stiffness_damping_s = keys.stiffness_damping_s.value_or(material.stiffness_damping_s);
+  material.relaxation = keys.relaxation.value_or(material.relaxation);
+  material.stiffening = keys.stiffening ? keys.stiffening : material.stiffening;
+  checkModel(item, material.model, material.poisson_ratio, material.stiffening);
   return material;
 }
 
@@ -87,9 +130,27 @@ MaterialConfig complete(const Item& item, const MaterialKeys& keys)
 
 Kind<MaterialModel> materialModel()
 {
-  return choice<MaterialModel>(
-      {{"neo_hookean", MaterialModel::neo_hookean}, {"corotated", MaterialModel::corotated}},
-      {"linear", "st_venant_kirchhoff"});
+  return choice<MaterialModel>({{"neo_hookean", MaterialModel::neo_hookean},
+                                {"neo_hookean_log", MaterialModel::neo_hookean_log},
+                                {"exponential", MaterialModel::exponential},
+                                {"corotated", MaterialModel::corotated},
+                                {"st_venant_kirchhoff", MaterialModel::st_venant_kirchhoff},
+                                {"linear", MaterialModel::linear}});
+}
+
+void checkModel(const Item& item, MaterialModel model, double poisson_ratio,
+                const std::optional<double>& stiffening)
+{
+  const double least = leastPoissonRatio(model);
+  if (poisson_ratio < least)
+  {
+    item.reject("has poisson_ratio " + shortest(poisson_ratio) + ", must be at least " +
+                shortest(least) + " with model " + materialModel().show(model));
+  }
+  if (model == MaterialModel::exponential && !stiffening)
+  {
+    item.rejectKey("stiffening", "missing, must be given with model exponential");
+  }
 }
 
 Kind<double> youngModulus()
@@ -105,6 +166,26 @@ Kind<double> poissonRatio()
 Kind<double> density()
 {
   return number(0.0, 1e5, Ends::open_below);
+}
+
+Kind<double> stiffening()
+{
+  return number(1e-3, 100.0, Ends::closed);
+}
+
+Kind<double> massDamping()
+{
+  return number(0.0, 1e4, Ends::closed);
+}
+
+Kind<double> stiffnessDamping()
+{
+  return number(0.0, 1e3, Ends::closed);
+}
+
+Kind<std::vector<RelaxationBranch>> relaxation()
+{
+  return listOf(mapOf(relaxationSection()));
 }
 
 Kind<MaterialConfig> material()

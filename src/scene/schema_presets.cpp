@@ -42,7 +42,40 @@ const Section<PresetConfig>& presetSection()
                     numberRange(1e5), "Least and greatest published value.")
           .required("density_source", &PresetConfig::density_source, text(),
                     "Authors, year and what was measured.")
+          .optional(
+              "stiffening", [](PresetConfig & p) -> auto& { return p.material.stiffening; },
+              maybe(stiffening(), "none", false), "Of model exponential, which needs it.")
+          .optional("stiffening_source", &PresetConfig::stiffening_source,
+                    maybe(text(), "none", false), "Authors, year and what it was fitted to.")
+          .optional(
+              "mass_damping_per_s",
+              [](PresetConfig & p) -> auto& { return p.material.mass_damping_per_s; },
+              massDamping(), "As in a scene.")
+          .optional(
+              "stiffness_damping_s",
+              [](PresetConfig & p) -> auto& { return p.material.stiffness_damping_s; },
+              stiffnessDamping(), "As in a scene.")
+          .optional(
+              "relaxation", [](PresetConfig & p) -> auto& { return p.material.relaxation; },
+              relaxation(), "As in a scene.")
+          .optional("viscosity_source", &PresetConfig::viscosity_source,
+                    maybe(text(), "none", false),
+                    "Where damping or relaxation come from: authors, year and what was measured.")
           .finally([](const Item& item, PresetConfig& preset) {
+            checkModel(item, preset.material.model, preset.material.poisson_ratio,
+                       preset.material.stiffening);
+            for (const char* key : {"mass_damping_per_s", "stiffness_damping_s", "relaxation"})
+            {
+              if (item.has(key) && !item.has("viscosity_source"))
+              {
+                item.rejectKey("viscosity_source",
+                               std::string("missing, must be given with ") + key);
+              }
+            }
+            if (item.has("stiffening") && !item.has("stiffening_source"))
+            {
+              item.rejectKey("stiffening_source", "missing, must be given with stiffening");
+            }
             checkInside(item.at("young_modulus_pa"), preset.material.young_modulus_pa,
                         preset.young_modulus_range_pa, item.at("young_modulus_range_pa"));
             checkInside(item.at("density_kg_per_m3"), preset.material.density_kg_per_m3,

@@ -18,6 +18,8 @@ struct PresetConfig
   std::string poisson_ratio_source;
   std::pair<double, double> density_range_kg_per_m3;
   std::string density_source;
+  std::optional<std::string> stiffening_source;
+  std::optional<std::string> viscosity_source;
 };
 
 /** A materials file. */
@@ -53,6 +55,14 @@ Kind<MaterialModel> materialModel();
 Kind<double> youngModulus();
 Kind<double> poissonRatio();
 Kind<double> density();
+Kind<double> stiffening();
+Kind<double> massDamping();
+Kind<double> stiffnessDamping();
+Kind<std::vector<RelaxationBranch>> relaxation();
+
+/** Rejects a material, told at `item`, that its model does not take. */
+void checkModel(const Item& item, MaterialModel model, double poisson_ratio,
+                const std::optional<double>& stiffening);
 
 /** A material as a tissue names it: a preset, explicit values, or a preset with some replaced. */
 Kind<MaterialConfig> material();

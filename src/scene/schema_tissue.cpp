@@ -24,18 +24,20 @@ const Section<RegionConfig>& regionSection()
                             "Tets with a tag of the mesh file, and what is different in them.")
           .required("tag", &RegionConfig::tag, integer(0, 2147483647),
                     "Physical group or region number in the mesh file.")
+          .optional("model", &RegionConfig::model, maybe(materialModel(), "the material's", false),
+                    "Strain energy there.")
           .optional("young_modulus_pa", &RegionConfig::young_modulus_pa,
                     maybe(youngModulus(), "the material's", false), "Young's modulus there.")
           .optional("poisson_ratio", &RegionConfig::poisson_ratio,
                     maybe(poissonRatio(), "the material's", false), "Poisson's ratio there.")
           .optional("density_kg_per_m3", &RegionConfig::density_kg_per_m3,
                     maybe(density(), "the material's", false), "Density there.")
-          .finally([](const Item& item, RegionConfig& region) {
-            if (!region.young_modulus_pa && !region.poisson_ratio && !region.density_kg_per_m3)
+          .optional("stiffening", &RegionConfig::stiffening,
+                    maybe(stiffening(), "the material's", false), "Of model exponential there.")
+          .finally([](const Item& item, RegionConfig&) {
+            if (item.keys().size() == 1)
             {
-              item.reject(
-                  "changes nothing, must have one of young_modulus_pa, poisson_ratio, "
-                  "density_kg_per_m3");
+              item.reject("changes nothing, must have more keys than tag");
             }
           });
   return section;
@@ -107,14 +109,24 @@ const Section<NodeMotionConfig>& nodeMotionSection()
 
 void checkRegions(const Item& item, TissueConfig& tissue)
 {
+  const MaterialConfig& material = tissue.material;
   for (std::size_t i = 0; i < tissue.regions.size(); ++i)
   {
+    const RegionConfig& region = tissue.regions[i];
+    const Item place = item.at("regions").at(i);
+    const MaterialModel model = region.model.value_or(material.model);
+    if (region.stiffening && model != MaterialModel::exponential)
+    {
+      place.at("stiffening").rejectValue("is for model exponential, which is not asked for");
+    }
+    checkModel(place, model, region.poisson_ratio.value_or(material.poisson_ratio),
+               region.stiffening ? region.stiffening : material.stiffening);
     for (std::size_t j = 0; j < i; ++j)
     {
       if (tissue.regions[i].tag == tissue.regions[j].tag)
       {
-        const Item tag = item.at("regions").at(i).at("tag");
-        tag.rejectValue("is the tag of regions[" + std::to_string(j) + "], must be new");
+        place.at("tag").rejectValue("is the tag of regions[" + std::to_string(j) +
+                                    "], must be new");
       }
     }
   }
@@ -155,7 +167,7 @@ const Section<TissueConfig>& tissueSection()
                   "tet4: linear; tet10: quadratic, with a node in the middle of each edge of the "
                   "mesh as well.");
     keys.optional("regions", &TissueConfig::regions, listOf(mapOf(regionSection())),
-                  "Parts of other stiffness or density; each tag once.");
+                  "Parts of other material; each tag once.");
     addHolds(keys);
     keys.optional("field", &TissueConfig::field, mapOf(fieldSection()),
                   "Its distance field; marched only if the tissue has a contact.")
@@ -174,12 +186,21 @@ const Section<MembraneConfig>& membraneSection()
     keys.required("thickness_m", &MembraneConfig::thickness_m, number(0.0, 0.1, Ends::open_below),
                   "What it weighs, stretches and bends by; contact is with the middle of it.");
     addHolds(keys);
-    keys.finally([](const Item& item, MembraneConfig&) {
-      if (item.at("material").has("model"))
+    keys.finally([](const Item& item, MembraneConfig& membrane) {
+      for (const char* key : {"model", "stiffening"})
+      {
+        if (item.at("material").has(key))
+        {
+          item.at("material")
+              .at(key)
+              .rejectValue("is for tissues, a membrane has a law of its own");
+        }
+      }
+      if (!membrane.material.relaxation.empty() || membrane.material.stiffness_damping_s > 0.0)
       {
         item.at("material")
-            .at("model")
-            .rejectValue("is for tissues, a membrane has a law of its own");
+            .reject(
+                "has relaxation or stiffness_damping_s, which are for tissues, not for membranes");
       }
     });
     return keys;

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "soft_tissue_sim/energy/material.h"
 #include "support/mesh_samples.h"
 
 namespace soft_tissue
@@ -37,6 +39,36 @@ struct NamedF
   Mat3 f;
   bool smooth = true;  ///< false where laws built on the polar rotation have none
 };
+
+/** Whether a law has derivatives where two stretches cancel as well. */
+inline bool isSmooth(MaterialModel model)
+{
+  return model != MaterialModel::corotated;
+}
+
+/** Whether a law's energy is the same however the deformed body is turned. */
+inline bool isBlindToRotations(MaterialModel model)
+{
+  return model != MaterialModel::linear;
+}
+
+/** Every law at an ordinary, a zero, an auxetic (where it takes that) and a nearly incompressible
+ * Poisson's ratio. */
+inline std::vector<std::tuple<MaterialModel, double>> lawsAndPoissonRatios()
+{
+  std::vector<std::tuple<MaterialModel, double>> all;
+  for (const MaterialModel model : kMaterialModels)
+  {
+    for (const double poisson_ratio : {0.3, 0.0, -0.4, 0.49})
+    {
+      if (poisson_ratio >= leastPoissonRatio(model))
+      {
+        all.emplace_back(model, poisson_ratio);
+      }
+    }
+  }
+  return all;
+}
 
 /** F with the given signed singular values between random rotations. */
 inline Mat3 stretched(std::mt19937& random, double a, double b, double c)

@@ -52,6 +52,26 @@ class Inertia : public EnergyTerm
   double inverse_square_step_ = 0.0;
 };
 
+/** 1/(2 h) sum c |x - x_0|^2: a force -c v against each node's velocity. */
+class Drag : public EnergyTerm
+{
+ public:
+  /** @param coefficients N, kg/s; must outlive the term */
+  explicit Drag(const std::vector<double>& coefficients) : coefficients_(coefficients) {}
+
+  /** Positions at the start of the step that begins (N x 3, m), and h (s). */
+  void beginStep(const Points& x, double step);
+
+  double value(const Points& x) override;
+  void addGradient(const Points& x, Points& gradient) override;
+  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
+
+ private:
+  const std::vector<double>& coefficients_;
+  Points start_;
+  double inverse_step_ = 0.0;
+};
+
 /** -sum m g . x. */
 class Gravity : public EnergyTerm
 {

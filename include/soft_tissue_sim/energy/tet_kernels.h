@@ -12,8 +12,14 @@ namespace soft_tissue
  * part of the bits. */
 constexpr Index kTetLanes = 8;
 
-/** Constants a law needs per tet, made from E and nu once. */
+/** Constants a law needs per tet, made from its parameters once. */
 constexpr int kMaterialConstants = 4;
+
+/** Constants of what tets remember, per point, see Viscosity: twice Lame's, a strain, a stress. */
+constexpr int kMemoryConstants = 14;
+
+/** Tets of a smaller det F remember their stress as if it were this. */
+constexpr double kLeastMemoryVolume = 0.1;
 
 /** Blocks of a linear tet's stiffness. */
 constexpr int kTetBlocks = 10;
@@ -30,7 +36,7 @@ struct TetGroups
   const Index* nodes;       ///< [group][TetKernels::nodes][8], a linear tet's in any order
   const double* gradients;  ///< [group][3][3][8]: rows of the inverse rest edge matrix, 1/m
   const double* volumes;    ///< [group][8], m^3, > 0; 0 in unused lanes
-  const double* constants;  ///< [group][kMaterialConstants][8]
+  const double* constants;  ///< [group][TetKernels::constants_each][8]
   /** [group][TetKernels::parts][4][8]: barycentric coordinates of the places where the stress of
    * quadratic tets is told; linear ones have none. */
   const double* places;
@@ -42,11 +48,13 @@ struct TetKernels
 {
   int nodes;                 ///< of a tet
   int parts;                 ///< of a tet that have a stress of their own
+  int points;                ///< of a tet where its energy is taken
+  int constants_each;        ///< of a tet: those of its law, or of what all its points remember
   int block_count;           ///< kTetBlocks or kQuadraticTetBlocks
   const BlockNodes* blocks;  ///< block_count, in the order of positions below
 
-  /** Constants of the law from E (Pa) and nu. */
-  void (*constants)(double young_modulus, double poisson_ratio, double* constants);
+  /** Constants of the law, kMaterialConstants; null where there is no law. */
+  void (*constants)(const LawParameters& of, double* constants);
   /** energies[group][8], J. */
   void (*energy)(const TetGroups&, Index begin, Index end, const double* x, double* energies);
   /** gradient += forces of the groups' tets, flat, 3 per node, N; and their energies. */
@@ -63,9 +71,16 @@ struct TetKernels
   void (*projected_stiffness)(const TetGroups&, Index begin, Index end, const double* x,
                               const Index* positions, double* values);
   /** det_f[group][8], the smallest of each tet, and, unless null, von_mises[group][parts][8] in Pa.
-   */
+   * Null where there is no law. */
   void (*state)(const TetGroups&, Index begin, Index end, const double* x, double* det_f,
                 double* von_mises);
+  /**
+   * six[group][points][6][8], symmetric matrices by xx, yy, zz, yz, xz, xy: the law's second
+   * Piola-Kirchhoff stress, Pa; where there is no law, Green's strain.
+   */
+  void (*remember)(const TetGroups&, Index begin, Index end, const double* x, double* six);
+  /** The loops for what such tets remember; null in those themselves. */
+  const TetKernels* memory;
 };
 
 /** The loops for linear tets of a material on this machine. */

@@ -37,15 +37,21 @@ struct MaterialConfig
   double young_modulus_pa = 0.0;
   double poisson_ratio = 0.0;
   double density_kg_per_m3 = 0.0;
+  std::optional<double> stiffening = {};  ///< of the exponential model, which needs it
+  double mass_damping_per_s = 0.0;
+  double stiffness_damping_s = 0.0;
+  std::vector<RelaxationBranch> relaxation = {};
 };
 
 /** What a region with this tag has different from the tissue's material. */
 struct RegionConfig
 {
   int tag = 0;
+  std::optional<MaterialModel> model;
   std::optional<double> young_modulus_pa;
   std::optional<double> poisson_ratio;
   std::optional<double> density_kg_per_m3;
+  std::optional<double> stiffening;
 };
 
 /** Axis-aligned box in the world frame, metres. */

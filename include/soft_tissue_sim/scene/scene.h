@@ -170,8 +170,8 @@ class Scene
   /** Rest shape, zero velocity, tools at their initial poses; time goes on. */
   void resetWorld();
 
-  /** Hash of every bit of the dynamic state: positions, velocities, accelerations, tool
-   * poses, step count. */
+  /** Hash of every bit of the dynamic state: positions, velocities, accelerations, what viscous
+   * tissue remembers, tool poses, step count. */
   std::uint64_t stateHash() const;
 
   /** Copies the state out, reusing the memory `snapshot` already has. */

@@ -85,7 +85,8 @@ std::vector<BadScene> badNames()
       {"{method: cffm}", "{refresh: never}",
        "tissues[0].field.refresh = never, must be one of carried, lazy, full"},
       {"{young_modulus_pa: 3000,", "{model: jelly, young_modulus_pa: 3000,",
-       "tissues[0].material.model = jelly, must be one of neo_hookean, corotated"},
+       "tissues[0].material.model = jelly, must be one of neo_hookean, neo_hookean_log, "
+       "exponential, corotated, st_venant_kirchhoff, linear"},
       {"length_unit: m}\n    material: {young_modulus_pa: 3000",
        "length_unit: inch}\n    material: "
        "{young_modulus_pa: 3000",
@@ -198,8 +199,6 @@ std::vector<BadScene> notAvailable()
        "solver.linear = multigrid, " NOT_AVAILABLE "; must be auto, pcg, cholesky"},
       {"linear: auto", "stepper: bdf2",
        "solver.stepper = bdf2, " NOT_AVAILABLE "; must be implicit_euler, quasi_static"},
-      {"{young_modulus_pa: 3000,", "{model: linear, young_modulus_pa: 3000,",
-       "tissues[0].material.model = linear, " NOT_AVAILABLE "; must be neo_hookean, corotated"},
       {"{topic: servo_cp}", "marker", "tools[1].pose_source = marker, " NOT_AVAILABLE},
       {"{topic: servo_cp}", "{marker: true}", "tools[1].pose_source.marker: " NOT_AVAILABLE},
       {kCapsule, "{urdf: {file: mesh.msh, links: [a, b]}}",

@@ -55,6 +55,16 @@ std::vector<BadScene> badNumbers()
        "tissues[1].material.young_modulus_pa = -9000, must be in (0, 1e+12]"},
       {"young_modulus_pa: 3.0e4", "young_modulus_pa: -1",
        "tissues[0].regions[0].young_modulus_pa = -1, must be in (0, 1e+12]"},
+      {"poisson_ratio: 0.45", "poisson_ratio: 0.45, mass_damping_per_s: -1",
+       "tissues[0].material.mass_damping_per_s = -1, must be in [0, 10000]"},
+      {"poisson_ratio: 0.45", "poisson_ratio: 0.45, stiffness_damping_s: 2000",
+       "tissues[0].material.stiffness_damping_s = 2000, must be in [0, 1000]"},
+      {"poisson_ratio: 0.45",
+       "poisson_ratio: 0.45, relaxation: [{relative_modulus: 0, relaxation_time_s: 1}]",
+       "tissues[0].material.relaxation[0].relative_modulus = 0, must be in (0, 1000]"},
+      {"poisson_ratio: 0.45", "poisson_ratio: 0.45, relaxation: [{relative_modulus: 1}]",
+       "tissues[0].material.relaxation[0].relaxation_time_s: missing, must be a number in (0, "
+       "1e+06]"},
       {"poisson_ratio: 0.45", "poisson_ratio: 0.7",
        "tissues[0].material.poisson_ratio = 0.7, must be in (-1, 0.5)"},
       {"poisson_ratio: 0.4,", "poisson_ratio: 0.5,",
@@ -109,10 +119,12 @@ std::vector<BadScene> badKeys()
        "velocity_m_per_s, material, element, regions, fixed, keyframes, field"},
       {"young_modulus_pa: 3000", "young_modulus_kpa: 3",
        "tissues[0].material.young_modulus_kpa: unknown key, did you mean 'young_modulus_pa'? "
-       "Known: model, preset, young_modulus_pa, poisson_ratio, density_kg_per_m3"},
+       "Known: model, preset, young_modulus_pa, poisson_ratio, density_kg_per_m3, stiffening, "
+       "mass_damping_per_s, stiffness_damping_s, relaxation"},
       {"density_kg_per_m3: 1060", "density: 1060",
        "tissues[0].material.density: unknown key, did you mean 'density_kg_per_m3'? Known: model, "
-       "preset, young_modulus_pa, poisson_ratio, density_kg_per_m3"},
+       "preset, young_modulus_pa, poisson_ratio, density_kg_per_m3, stiffening, "
+       "mass_damping_per_s, stiffness_damping_s, relaxation"},
       {"time_step_s: 0.005", "time_step_ms: 5",
        "time_step_ms: unknown key, did you mean 'time_step_s'? Known: time_step_s, "
        "gravity_m_per_s2, materials, solver, tissues, membranes, tools, obstacles, contacts, "
@@ -146,8 +158,7 @@ std::vector<BadScene> badKeys()
       {"outputs: {stress: false}", "outputs: [stress]",
        "outputs = [stress], must be a map of keys: stress"},
       {"{tag: 2, young_modulus_pa: 3.0e4}", "{tag: 2}",
-       "tissues[0].regions[0]: changes nothing, must have one of young_modulus_pa, poisson_ratio, "
-       "density_kg_per_m3"},
+       "tissues[0].regions[0]: changes nothing, must have more keys than tag"},
       {"[{tag: 2, young_modulus_pa: 3.0e4}]", "{tag: 2, young_modulus_pa: 3.0e4}",
        "tissues[0].regions = {tag: 2, young_modulus_pa: 3.0e4}, must be a list"},
       {"{capsule: {radius_m: 0.004, length_m: 0.02}}", "{}",

@@ -131,6 +131,30 @@ TEST_P(FailedStep, NeverLetsOutWhatIsNotANumber)
   }
 }
 
+// At rest there is nothing to remember; what the first parts of the step pressed must not be.
+TEST(FailedStep, IsNotRemembered)
+{
+  ScratchFolder folder;
+  SceneConfig config = blockUnderBall(folder, 2, Stepper::quasi_static);
+  config.gravity_m_per_s2.setZero();
+  config.tissues[0].material.relaxation = {{2.0, 1.0}};
+  Scene scene(config);
+  const Points rest = scene.tissues()[0].rest.nodes;
+  const Pose up = snapshotOf(scene).tools[0].X_WT;
+  scene.setToolTarget(0, raised(up, -0.05));  // through the held bottom
+  ASSERT_TRUE(scene.step().held);
+  scene.setToolTarget(0, up);
+  for (int n = 0; n < 3; ++n)
+  {
+    ASSERT_FALSE(scene.step().held);
+    const Snapshot snapshot = snapshotOf(scene);
+    for (std::size_t i = 0; i < rest.size(); ++i)
+    {
+      ASSERT_LT((snapshot.tissues[0].positions[i] - rest[i]).norm(), 1e-12);
+    }
+  }
+}
+
 // Without gravity nothing but rounding errors is left of the forces in the end.
 TEST(FailedStep, IsNoneOnTheWayBackToRest)
 {
