@@ -7,24 +7,27 @@
 
 #include "contact_study.h"
 #include "field_study.h"
+#include "stability_study.h"
 
 namespace
 {
 constexpr const char* kUsage =
-    "usage: speed_error field|contact --out DIR [--quick]\n"
+    "usage: speed_error field|contact|stability --out DIR [--quick]\n"
     "  field    distance fields: DIR/field.csv; rosrun soft_tissue_sim plot_speed_error.py DIR\n"
     "           draws it\n"
     "  contact  forces on tools against contact mechanics: DIR/contact.csv; finding who touches\n"
     "           whom: DIR/detection.csv\n"
+    "  stability  hard cases: DIR/stability.csv\n"
     "  --quick  small bodies only, each timed once\n";
 
 using Study = void (*)(const std::string& folder, bool quick);
 
 Study studyNamed(const std::string& name)
 {
-  return name == "field"     ? soft_tissue::studies::studyFields
-         : name == "contact" ? soft_tissue::studies::studyContact
-                             : nullptr;
+  return name == "field"       ? soft_tissue::studies::studyFields
+         : name == "contact"   ? soft_tissue::studies::studyContact
+         : name == "stability" ? soft_tissue::studies::studyStability
+                               : nullptr;
 }
 }  // namespace
 

@@ -1,8 +1,10 @@
 #include "soft_tissue_sim/scene/scene.h"
 
 #include <algorithm>
+#include <string>
 
 #include "scene_impl.h"
+#include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/hash.h"
 
 namespace soft_tissue
@@ -43,7 +45,12 @@ void Scene::Impl::resetWorld()
   report_ = StepReport();
   report_.step = number;
   report_.time_s = time_s;
-  // What was found on the way must not show in what follows.
+  forgetWay();
+}
+
+/** What was found on the way must not show in what follows. */
+void Scene::Impl::forgetWay()
+{
   makeSolver();
   for (Contact& contact : contacts_)
   {
@@ -53,6 +60,29 @@ void Scene::Impl::resetWorld()
       allow(contact.start_depth_m, contact);
     }
   }
+}
+
+void Scene::Impl::setMotion(std::size_t tissue, const Points& positions, const Points& velocities)
+{
+  const TissueInfo& info = tissue_info_.at(tissue);
+  const std::size_t count = info.rest.nodes.size();
+  const auto finite = [](const Vec3& p) { return p.allFinite(); };
+  if (positions.size() != count || velocities.size() != count)
+  {
+    throw Error("tissue " + info.name + " has " + std::to_string(count) + " nodes, given are " +
+                std::to_string(positions.size()) + " positions and " +
+                std::to_string(velocities.size()) + " velocities");
+  }
+  if (!std::all_of(positions.begin(), positions.end(), finite) ||
+      !std::all_of(velocities.begin(), velocities.end(), finite))
+  {
+    throw Error("tissue " + info.name + ": a position or velocity to set is not finite");
+  }
+  const Index first = tissues_[tissue].first_node;
+  std::copy(positions.begin(), positions.end(), x_.begin() + first);
+  std::copy(velocities.begin(), velocities.end(), v_.begin() + first);
+  std::fill_n(acceleration_.begin() + first, count, Vec3::Zero());
+  forgetWay();
 }
 
 std::uint64_t Scene::Impl::stateHash() const
@@ -150,6 +180,11 @@ const StepReport& Scene::step()
 void Scene::resetWorld()
 {
   impl_->resetWorld();
+}
+
+void Scene::setMotion(std::size_t tissue, const Points& positions, const Points& velocities)
+{
+  impl_->setMotion(tissue, positions, velocities);
 }
 
 std::uint64_t Scene::stateHash() const

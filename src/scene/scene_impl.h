@@ -28,6 +28,7 @@ class Scene::Impl
 
   const StepReport& step();
   void resetWorld();
+  void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
   void refuseDeepStart();
   std::uint64_t stateHash() const;
   void fillSnapshot(Snapshot& snapshot);
@@ -169,6 +170,7 @@ class Scene::Impl
   void keepSpin(std::size_t group, double h);
   void setOff();
   void stop();
+  void forgetWay();
   void finishStep();
   void collectContacts();
 

@@ -170,6 +170,15 @@ class Scene
   /** Rest shape, zero velocity, tools at their initial poses; time goes on. */
   void resetWorld();
 
+  /**
+   * Puts all nodes of a tissue or membrane where they are told to be and gives them velocities,
+   * fixed and moved ones, too; of quadratic tets the nodes are those of TissueInfo::rest.
+   * @param positions   N, world, m
+   * @param velocities  N, world, m/s
+   * @throws Error unless as many as the tissue has nodes, all finite
+   */
+  void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
+
   /** Hash of every bit of the dynamic state: positions, velocities, accelerations, what viscous
    * tissue remembers, tool poses, step count. */
   std::uint64_t stateHash() const;
