@@ -68,24 +68,34 @@ void addLoadMasses(const QuadraticTetMesh& rest, const std::vector<double>& dens
   addShares(rest, densities, first_node, -1.0 / 20.0, 1.0 / 5.0, masses);
 }
 
-void Inertia::beginStep(const Points& x, const Points& velocities, double step)
+StepFormula StepFormula::bdf2(double step_s, double last_step_s)
 {
-  target_.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
+  const double ratio = step_s / last_step_s;
+  return {step_s * (1.0 + ratio) / (1.0 + 2.0 * ratio), ratio * ratio / (1.0 + 2.0 * ratio)};
+}
+
+bool Inertia::beginStep(Index first, Index count, const StepStart& start,
+                        const StepFormula& formula)
+{
+  const double per_square = 1.0 / (formula.effective_s * formula.effective_s);
+  bool other = false;
+  for (Index i = first; i < first + count; ++i)
   {
-    target_[i] = x[i] + step * velocities[i];
+    target_[i] = start.position(i, formula) + formula.effective_s * start.velocity(i, formula);
+    const double stiffness = per_square * masses_[i];
+    other = other || stiffness != stiffness_[i];
+    stiffness_[i] = stiffness;
   }
-  inverse_square_step_ = 1.0 / (step * step);
+  return other;
 }
 
 double Inertia::value(const Points& x)
 {
-  return 0.5 * inverse_square_step_ *
-         parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
+  return 0.5 * parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
            double sum = 0.0;
            for (Index i = begin; i < end; ++i)
            {
-             sum += masses_[i] * (x[i] - target_[i]).squaredNorm();
+             sum += stiffness_[i] * (x[i] - target_[i]).squaredNorm();
            }
            return sum;
          });
@@ -95,7 +105,7 @@ void Inertia::addGradient(const Points& x, Points& gradient)
 {
   for (std::size_t i = 0; i < x.size(); ++i)
   {
-    gradient[i] += inverse_square_step_ * masses_[i] * (x[i] - target_[i]);
+    gradient[i] += stiffness_[i] * (x[i] - target_[i]);
   }
 }
 
@@ -104,10 +114,9 @@ void Inertia::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& 
   for (std::size_t i = 0; i < x.size(); ++i)
   {
     double* block = hessian.block(hessian.diagonal(static_cast<Index>(i)));
-    const double stiffness = inverse_square_step_ * masses_[i];
-    block[0] += stiffness;
-    block[4] += stiffness;
-    block[8] += stiffness;
+    block[0] += stiffness_[i];
+    block[4] += stiffness_[i];
+    block[8] += stiffness_[i];
   }
 }
 

@@ -11,6 +11,7 @@ namespace soft_tissue
 void Scene::Impl::setOff()
 {
   stop();
+  forgetPast();
   const Points still = v_;
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
@@ -61,6 +62,13 @@ std::uint64_t Scene::Impl::stateHash() const
   hash.add(x_.data(), x_.size() * sizeof(Vec3));
   hash.add(v_.data(), v_.size() * sizeof(Vec3));
   hash.add(acceleration_.data(), acceleration_.size() * sizeof(Vec3));
+  if (config_.solver.stepper == Stepper::bdf2)
+  {
+    hash.add(x_last_.data(), x_last_.size() * sizeof(Vec3));
+    hash.add(v_last_.data(), v_last_.size() * sizeof(Vec3));
+    hash.add(smooth_.data(), smooth_.size());
+    hash.addValue(last_h_);
+  }
   for (const Tool& tool : tools_)
   {
     hash.add(tool.X_WT.data(), 16 * sizeof(double));

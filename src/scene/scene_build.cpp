@@ -35,7 +35,9 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   tissue_info_.reserve(tissues_.size());
   group_.resize(tissues_.size());
   held_.resize(tissues_.size());
-  spin_.resize(tissues_.size());
+  goal_.resize(tissues_.size());
+  formula_.resize(tissues_.size());
+  smooth_.resize(tissues_.size());
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
     k < config_.tissues.size() ? addTissue(k) : addMembrane(k);
@@ -43,6 +45,9 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   x_rest_ = x_;
   v_.resize(x_.size());
   acceleration_.resize(x_.size());
+  x_last_ = x_;
+  v_last_.assign(x_.size(), Vec3::Zero());
+  contact_force_.assign(x_.size(), Vec3::Zero());
   inertia_ = std::make_unique<Inertia>(masses_);
   gravity_ = std::make_unique<Gravity>(load_masses_, config_.gravity_m_per_s2);
   makeSolver();

@@ -138,9 +138,8 @@ void Scene::Impl::beginContacts(double from, double to)
 {
   for (const Contact& contact : contacts_)
   {
-    contact.term->setStep(config_.solver.stepper == Stepper::quasi_static
-                              ? std::numeric_limits<double>::infinity()
-                              : (to - from) * config_.time_step_s);
+    contact.term->setStep(isDynamic() ? (to - from) * config_.time_step_s
+                                      : std::numeric_limits<double>::infinity());
     contact.term->setStiffening(std::max(1.0, kRelaxed * contact.term->stiffening()));
     if (contact.with_tool != nullptr)
     {

@@ -49,6 +49,7 @@ const StepReport& Scene::Impl::step()
     {
       x_ = before_step_;
       stop();
+      forgetPast();
       report_.held = true;
     }
   }
@@ -91,16 +92,18 @@ bool Scene::Impl::advance(double from, double to, int depth)
   return advance(from, middle, depth + 1) && advance(middle, to, depth + 1);
 }
 
-/** One minimisation of the potential over the part [from, to] of the step. */
+/** One minimisation of the potential over the part [from, to] of the step; another one where a blow
+ * turns out to need another formula. */
 bool Scene::Impl::minimise(double from, double to)
 {
   const double h = (to - from) * config_.time_step_s;
-  const bool dynamic = config_.solver.stepper == Stepper::implicit_euler;
   terms_.clear();
   terms_.push_back(gravity_.get());
-  if (dynamic)
+  before_ = x_;
+  if (isDynamic())
   {
-    inertia_->beginStep(x_, v_, h);
+    chooseFormulas(h);
+    beginInertia();
     terms_.push_back(inertia_.get());
   }
   for (const Tissue& tissue : tissues_)
@@ -108,28 +111,19 @@ bool Scene::Impl::minimise(double from, double to)
     terms_.push_back(tissue.elasticity.get());
   }
   const std::size_t first_contact = terms_.size();
-  before_ = x_;
-  extrapolate(h, report_.time_s + to * config_.time_step_s);
+  extrapolate(report_.time_s + to * config_.time_step_s);
   beginContacts(from, to);
   term_seconds_.assign(terms_.size(), 0.0);
-  if (h != last_h_)  // other second derivatives of inertia
+  NewtonReport newton = findBalance();
+  if (config_.solver.stepper == Stepper::bdf2)
   {
-    newton_->forgetMatrix();
-    last_h_ = h;
-  }
-  if (dynamic)
-  {
-    x_ = inertia_->target();
-    newton_->restoreFixed(extrapolated_, x_);
-  }
-  else
-  {
-    x_ = extrapolated_;
-  }
-  NewtonReport newton = findBalance(dynamic ? &extrapolated_ : nullptr);
-  for (int k = 0; k < kMostStiffenings && newton.converged && stiffenWhereTooDeep(); ++k)
-  {
-    newton = findBalance(nullptr);
+    std::fill(smooth_.begin(), smooth_.end(), 1);
+    while (newton.finite && findBlows())
+    {
+      dropThePast(h);
+      extrapolate(report_.time_s + to * config_.time_step_s);
+      newton = findBalance();
+    }
   }
   for (std::size_t k = 0; k < first_contact; ++k)
   {
@@ -138,13 +132,14 @@ bool Scene::Impl::minimise(double from, double to)
   const double failed = std::max(kFailedResidual, config_.solver.tolerance);
   if (!newton.finite || !(newton.converged || newton.out_of_time || newton.residual <= failed))
   {
+    std::fill(smooth_.begin(), smooth_.end(), 0);
     return false;
   }
   if (newton.out_of_time && newton.residual > failed)
   {
-    standStillIfBetter(newton.value);
+    standStillIfBetter(h);
   }
-  if (!dynamic)
+  if (!isDynamic())
   {
     stop();
     return true;
@@ -153,8 +148,26 @@ bool Scene::Impl::minimise(double from, double to)
   return true;
 }
 
-/** Minimises what terms_ add up to, and reports how that went. */
-NewtonReport Scene::Impl::findBalance(Points* other)
+/** Minimises what terms_ add up to, from where nodes would go by themselves, and with contact as
+ * stiff as it has to be. */
+NewtonReport Scene::Impl::findBalance()
+{
+  x_ = extrapolated_;
+  if (isDynamic())
+  {
+    x_ = inertia_->target();
+    newton_->restoreFixed(extrapolated_, x_);
+  }
+  NewtonReport newton = descend(isDynamic() ? &extrapolated_ : nullptr);
+  for (int k = 0; k < kMostStiffenings && newton.converged && stiffenWhereTooDeep(); ++k)
+  {
+    newton = descend(nullptr);
+  }
+  return newton;
+}
+
+/** Minimises what terms_ add up to from x_ or another start, and reports how that went. */
+NewtonReport Scene::Impl::descend(Points* other)
 {
   newton_options_.budget_s = timeLeft();
   const NewtonReport newton = newton_->minimise(terms_, newton_options_, x_, term_seconds_, other);
@@ -169,35 +182,21 @@ NewtonReport Scene::Impl::findBalance(Points* other)
 }
 
 /** A step left far from its end must not add energy: the potential there is at most that of a body
- * that stays where it was. */
-void Scene::Impl::standStillIfBetter(double potential)
+ * that stays where it was. That tells of energies where nothing of the past is carried on. */
+void Scene::Impl::standStillIfBetter(double h)
 {
-  double still = 0.0;
+  std::fill(smooth_.begin(), smooth_.end(), 0);
+  dropThePast(h);
+  double still = 0.0, moved = 0.0;
   for (EnergyTerm* term : terms_)
   {
     still += term->value(before_);
+    moved += term->value(x_);
   }
-  if (still < potential)
+  if (still < moved)
   {
     x_ = before_;
   }
-}
-
-/** Where nodes go if the last acceleration goes on: where a minimisation may start, beside where
- * they go if no force acts. */
-void Scene::Impl::extrapolate(double h, double end_s)
-{
-  extrapolated_ = x_;
-  if (config_.solver.stepper == Stepper::implicit_euler)
-  {
-    extrapolated_ = inertia_->target();
-    newton_->restoreFixed(x_, extrapolated_);
-    for (std::size_t i = 0; i < x_.size(); ++i)
-    {
-      extrapolated_[i] += h * h * acceleration_[i];
-    }
-  }
-  placeMovedNodes(end_s, extrapolated_);
 }
 
 /** Puts nodes that key frames move where they are at a time. */

@@ -126,7 +126,7 @@ SceneConfig rubbedLobe()
   return config;
 }
 
-class SteadyAllocation : public testing::TestWithParam<std::tuple<int, ElementKind>>
+class SteadyAllocation : public testing::TestWithParam<std::tuple<int, ElementKind, Stepper>>
 {
  protected:
   void SetUp() override { setThreadCount(std::get<0>(GetParam())); }
@@ -137,6 +137,7 @@ TEST_P(SteadyAllocation, aStepInContactAllocatesNothing)
 {
   SceneConfig config = rubbedLobe();
   config.tissues.at(0).element = std::get<1>(GetParam());
+  config.solver.stepper = std::get<2>(GetParam());
   Scene scene(config);
   const double warm_s = (kWarmUpPeriods + 0.5) * kPeriod;
   const double end_s = warm_s + kCountedPeriods * kPeriod;
@@ -158,7 +159,8 @@ TEST_P(SteadyAllocation, aStepInContactAllocatesNothing)
 
 INSTANTIATE_TEST_SUITE_P(Threads, SteadyAllocation,
                          testing::Combine(testing::Values(1, 2),
-                                          testing::Values(ElementKind::tet4, ElementKind::tet10)));
+                                          testing::Values(ElementKind::tet4, ElementKind::tet10),
+                                          testing::Values(Stepper::implicit_euler, Stepper::bdf2)));
 
 TEST(AllocationCounter, seesEveryKind)
 {

@@ -30,15 +30,53 @@ void addLumpedMasses(const QuadraticTetMesh& rest, const std::vector<double>& de
 void addLoadMasses(const QuadraticTetMesh& rest, const std::vector<double>& densities,
                    Index first_node, std::vector<double>& masses);
 
-/** 1/(2 h^2) |x - target|^2 in the lumped mass: what makes implicit Euler a minimisation. */
+/**
+ * How a step ends: x = x' + s v and v = v' + s a, where s is the effective step, a the acceleration
+ * at its end, x' = x0 + c (x0 - x1) and v' = v0 + c (v0 - v1); 0 is where the step starts, 1 where
+ * the last one did, c the share of its change that is carried on.
+ */
+struct StepFormula
+{
+  double effective_s = 0.0;
+  double carried = 0.0;
+
+  /** First order, needs nothing of the last step. */
+  static StepFormula implicitEuler(double step_s) { return {step_s, 0.0}; }
+  /** Second order, for steps of any ratio; both have the same formula for x and v.
+   * Source: [Hairer1993] section III.5 */
+  static StepFormula bdf2(double step_s, double last_step_s);
+};
+
+/** Positions and velocities of all nodes where a step starts and where the last one did, N x 3
+ * each, m and m/s. */
+struct StepStart
+{
+  const Points &x, &v, &x_last, &v_last;
+
+  /** x' and v' of StepFormula. */
+  Vec3 position(std::size_t i, const StepFormula& formula) const
+  {
+    return x[i] + formula.carried * (x[i] - x_last[i]);
+  }
+  Vec3 velocity(std::size_t i, const StepFormula& formula) const
+  {
+    return v[i] + formula.carried * (v[i] - v_last[i]);
+  }
+};
+
+/** 1/(2 s^2) |x - target|^2 in the lumped mass, target = x' + s v': what makes a step of
+ * StepFormula a minimisation. */
 class Inertia : public EnergyTerm
 {
  public:
   /** @param masses N, kg; must outlive the term */
-  explicit Inertia(const std::vector<double>& masses) : masses_(masses) {}
+  explicit Inertia(const std::vector<double>& masses)
+      : masses_(masses), target_(masses.size(), Vec3::Zero()), stiffness_(masses.size(), 0.0)
+  {}
 
-  /** Target positions x + h v (N x 3, m) and h (s) of the step that begins. */
-  void beginStep(const Points& x, const Points& velocities, double step);
+  /** Begins a step of nodes first to first + count - 1.
+   * @return whether their second derivative is another than in the last step */
+  bool beginStep(Index first, Index count, const StepStart& start, const StepFormula& formula);
 
   const Points& target() const { return target_; }
 
@@ -49,7 +87,7 @@ class Inertia : public EnergyTerm
  private:
   const std::vector<double>& masses_;
   Points target_;
-  double inverse_square_step_ = 0.0;
+  std::vector<double> stiffness_;  ///< mass over s^2
 };
 
 /** -sum m g . x. */

@@ -232,6 +232,7 @@ struct ContactConfig
 enum class Stepper
 {
   implicit_euler,
+  bdf2,
   quasi_static,
 };
 

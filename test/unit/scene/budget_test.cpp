@@ -89,9 +89,17 @@ TEST(StepBudget, StepsWithoutTimeSayHowFarTheyAreAndComeToTheSameEnd)
   }
 }
 
-TEST(StepBudget, StepsWithoutTimeAddNoEnergy)
+class HurriedSteps : public ::testing::TestWithParam<Stepper>
+{};
+
+INSTANTIATE_TEST_SUITE_P(Steppers, HurriedSteps,
+                         ::testing::Values(Stepper::implicit_euler, Stepper::bdf2));
+
+TEST_P(HurriedSteps, AddNoEnergy)
 {
-  Scene scene(lobeUnderBall(kNoTime));
+  SceneConfig config = lobeUnderBall(kNoTime);
+  config.solver.stepper = GetParam();
+  Scene scene(config);
   for (int step = 1; step <= 40; ++step)
   {
     press(scene, step);
