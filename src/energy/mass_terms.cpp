@@ -23,6 +23,24 @@ void addShares(const QuadraticTetMesh& rest, const std::vector<double>& densitie
     }
   }
 }
+/** Sum of f(i) over all nodes of some ranges. */
+template <typename Function>
+double sumOver(const std::vector<NodeRange>& ranges, const Function& f)
+{
+  double all = 0.0;
+  for (const NodeRange& range : ranges)
+  {
+    all += parallelSum(range.end - range.begin, kGrain, [&](Index begin, Index end) {
+      double sum = 0.0;
+      for (Index i = range.begin + begin; i < range.begin + end; ++i)
+      {
+        sum += f(i);
+      }
+      return sum;
+    });
+  }
+  return all;
+}
 }  // namespace
 
 void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, Index first_node,
@@ -91,52 +109,48 @@ bool Inertia::beginStep(Index first, Index count, const StepStart& start,
 
 double Inertia::value(const Points& x)
 {
-  return 0.5 * parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
-           double sum = 0.0;
-           for (Index i = begin; i < end; ++i)
-           {
-             sum += stiffness_[i] * (x[i] - target_[i]).squaredNorm();
-           }
-           return sum;
-         });
+  return 0.5 * sumOver(nodes_,
+                       [&](Index i) { return stiffness_[i] * (x[i] - target_[i]).squaredNorm(); });
 }
 
 void Inertia::addGradient(const Points& x, Points& gradient)
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (const NodeRange& range : nodes_)
   {
-    gradient[i] += stiffness_[i] * (x[i] - target_[i]);
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+      gradient[i] += stiffness_[i] * (x[i] - target_[i]);
+    }
   }
 }
 
-void Inertia::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& hessian)
+void Inertia::addHessian(const Points& /*x*/, Curvature /*curvature*/, BlockMatrix& hessian)
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (const NodeRange& range : nodes_)
   {
-    double* block = hessian.block(hessian.diagonal(static_cast<Index>(i)));
-    block[0] += stiffness_[i];
-    block[4] += stiffness_[i];
-    block[8] += stiffness_[i];
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+      double* block = hessian.block(hessian.diagonal(i));
+      block[0] += stiffness_[i];
+      block[4] += stiffness_[i];
+      block[8] += stiffness_[i];
+    }
   }
 }
 
 double Gravity::value(const Points& x)
 {
-  return -parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
-    double sum = 0.0;
-    for (Index i = begin; i < end; ++i)
-    {
-      sum += masses_[i] * acceleration_.dot(x[i]);
-    }
-    return sum;
-  });
+  return -sumOver(nodes_, [&](Index i) { return masses_[i] * acceleration_.dot(x[i]); });
 }
 
-void Gravity::addGradient(const Points& x, Points& gradient)
+void Gravity::addGradient(const Points& /*x*/, Points& gradient)
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (const NodeRange& range : nodes_)
   {
-    gradient[i] -= masses_[i] * acceleration_;
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+      gradient[i] -= masses_[i] * acceleration_;
+    }
   }
 }
 

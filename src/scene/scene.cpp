@@ -44,7 +44,9 @@ void Scene::Impl::resetWorld()
   report_.step = number;
   report_.time_s = time_s;
   // What was found on the way must not show in what follows.
-  makeSolver();
+  std::fill(asleep_.begin(), asleep_.end(), 0);
+  std::fill(quiet_s_.begin(), quiet_s_.end(), 0.0);
+  setSleepers();
   for (Contact& contact : contacts_)
   {
     contact.term->forget();
@@ -69,6 +71,12 @@ std::uint64_t Scene::Impl::stateHash() const
     hash.add(smooth_.data(), smooth_.size());
     hash.addValue(last_h_);
   }
+  if (config_.solver.sleep)
+  {
+    hash.add(asleep_.data(), asleep_.size());
+    hash.add(quiet_s_.data(), quiet_s_.size() * sizeof(double));
+    hash.add(island_.data(), island_.size() * sizeof(std::size_t));
+  }
   for (const Tool& tool : tools_)
   {
     hash.add(tool.X_WT.data(), 16 * sizeof(double));
@@ -89,6 +97,8 @@ void Scene::Impl::fillSnapshot(Snapshot& snapshot)
     state.positions.assign(first, first + tissue.node_count);
     const auto first_v = v_.begin() + tissue.first_node;
     state.velocities.assign(first_v, first_v + tissue.node_count);
+    state.asleep = asleep_[k] != 0;
+    state.evaluations = tissue.evaluations;
     if (config_.outputs.stress && tissue.tets != nullptr)
     {
       tissue.tets->vonMises(x_, state.von_mises);

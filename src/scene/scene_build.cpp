@@ -38,6 +38,10 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   goal_.resize(tissues_.size());
   formula_.resize(tissues_.size());
   smooth_.resize(tissues_.size());
+  asleep_.resize(tissues_.size());
+  quiet_s_.resize(tissues_.size());
+  island_.resize(tissues_.size());
+  islands_found_.resize(tissues_.size());
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
     k < config_.tissues.size() ? addTissue(k) : addMembrane(k);
@@ -162,6 +166,10 @@ void Scene::Impl::makeSolver()
       all.offsets.push_back(static_cast<Index>(all.items.size()));
     }
     for (const Index node : tissue_info_[k].fixed_nodes)
+    {
+      held.push_back(tissue.first_node + node);
+    }
+    for (Index node = 0; asleep_[k] != 0 && node < tissue.node_count; ++node)
     {
       held.push_back(tissue.first_node + node);
     }

@@ -18,9 +18,12 @@ namespace soft_tissue
 {
 struct SoftBodyModel;
 
+/** A minimisation that stops with more of the forces unbalanced has failed: the step is halved. */
+constexpr double kFailedResidual = 0.05;
+
 /** The scene itself. Building is in scene_build.cpp, its contacts in
  * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
- * scene_step.cpp and scene_inertia.cpp, reading out in scene.cpp. */
+ * scene_step.cpp and scene_inertia.cpp, resting in scene_sleep.cpp, reading out in scene.cpp. */
 class Scene::Impl
 {
  public:
@@ -62,6 +65,9 @@ class Scene::Impl
     Elasticity* tets = nullptr;  ///< the elasticity of a tissue
     double short_edge = 0.0;     ///< see TissueBody
     double inner_radius = 0.0;   ///< see innerRadius(); 0: not known yet
+    double min_det_f = 1.0;      ///< after the last step that moved it
+    int evaluations = 0;         ///< see TissueState
+    Box3 reach;                  ///< see findReaches()
   };
   /** Nodes that key frames move. */
   struct MovedNodes
@@ -153,6 +159,15 @@ class Scene::Impl
   bool findBlows();
   void takeForce(Contact& contact);
   void forgetPast();
+  std::size_t sleepers() const;
+  bool sleeps(const Contact& contact) const;
+  void findReaches();
+  bool areNear(const Contact& contact) const;
+  bool isDriven(std::size_t tissue) const;
+  bool isQuiet(std::size_t tissue) const;
+  void wakeUp();
+  void fallAsleep();
+  void setSleepers();
   bool stiffenWhereTooDeep();
   double timeLeft() const;
   void standStillIfBetter(double h);
@@ -176,9 +191,13 @@ class Scene::Impl
   std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
   Points x_, x_rest_, v_;
   Points acceleration_;  ///< of the last step, to start the next one from; moves nothing by itself
-  std::vector<std::size_t> group_;  ///< per tissue: the first of those it touches, itself included
-  std::vector<char> held_;          ///< per tissue: something outside holds it or its group
-  std::vector<Motion> goal_;        ///< per free group: how it moves at the end of the step
+  std::vector<std::size_t> group_;   ///< per tissue: the first of those it touches, itself included
+  std::vector<char> held_;           ///< per tissue: something outside holds it or its group
+  std::vector<Motion> goal_;         ///< per free group: how it moves at the end of the step
+  std::vector<char> asleep_;         ///< per tissue: it is left out
+  std::vector<double> quiet_s_;      ///< per tissue that is awake: for how long it hardly moved
+  std::vector<std::size_t> island_;  ///< per tissue that sleeps: the first of those it sleeps with
+  std::vector<std::size_t> islands_found_;
   std::vector<double> masses_;
   std::vector<double> load_masses_;  ///< what gravity pulls at
   std::unique_ptr<Inertia> inertia_;

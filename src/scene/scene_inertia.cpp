@@ -95,6 +95,10 @@ bool Scene::Impl::findBlows()
   bool any = false;
   for (Contact& contact : contacts_)
   {
+    if (sleeps(contact))
+    {
+      continue;
+    }
     takeForce(contact);
     double change = 0.0, now = 0.0, last = 0.0;
     for (std::size_t i = 0; i < contact.force.size(); ++i)

@@ -54,7 +54,7 @@ void Scene::Impl::findGroups()
   }
   for (const Contact& contact : contacts_)
   {
-    if (!contact.term->active())
+    if (sleeps(contact) || !contact.term->active())
     {
       continue;
     }
@@ -103,7 +103,9 @@ Scene::Impl::Motion Scene::Impl::motionOf(std::size_t group, const Points& x) co
 void Scene::Impl::takeVelocities(double h)
 {
   findGroups();
-  const auto isFree = [&](std::size_t k) { return group_[k] == k && held_[k] == 0; };
+  const auto isFree = [&](std::size_t k) {
+    return group_[k] == k && held_[k] == 0 && asleep_[k] == 0;
+  };
   const double fallen = config_.solver.stepper == Stepper::bdf2 ? 0.5 : 1.0;
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
@@ -131,7 +133,10 @@ void Scene::Impl::takeVelocities(double h)
   last_h_ = h;
   for (Contact& contact : contacts_)
   {
-    contact.last_force.swap(contact.force);
+    if (!sleeps(contact))
+    {
+      contact.last_force.swap(contact.force);
+    }
   }
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {

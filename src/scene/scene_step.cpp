@@ -10,8 +10,6 @@ namespace soft_tissue
 {
 namespace
 {
-/** A minimisation that stops with more of the forces unbalanced has failed: the step is halved. */
-constexpr double kFailedResidual = 0.05;
 /** How often contact that is too deep is made stiffer within a step. */
 constexpr int kMostStiffenings = 12;
 }  // namespace
@@ -35,13 +33,20 @@ const StepReport& Scene::Impl::step()
   const bool tools_went_alone = report_.held;  // their way back is none through tissue
   const double start_s = report_.time_s;
   aimTools();
+  wakeUp();
   easeDeepStarts();
   report_ = StepReport();
   report_.step = number;
   report_.time_s = start_s;
   report_.parts = tools_went_alone ? 1 : partsOfStep();
+  report_.converged = true;
   before_step_ = x_;
-  for (int part = 0; part < report_.parts && !report_.held; ++part)
+  for (Tissue& tissue : tissues_)
+  {
+    tissue.evaluations = 0;
+  }
+  const bool any_awake = sleepers() < tissues_.size();
+  for (int part = 0; any_awake && part < report_.parts && !report_.held; ++part)
   {
     const double from = static_cast<double>(part) / report_.parts;
     const double to = static_cast<double>(part + 1) / report_.parts;
@@ -53,6 +58,8 @@ const StepReport& Scene::Impl::step()
       report_.held = true;
     }
   }
+  report_.sleeping = static_cast<int>(sleepers());
+  fallAsleep();
   report_.time_s = start_s + config_.time_step_s;
   const Timer finish;
   finishStep();
@@ -106,9 +113,12 @@ bool Scene::Impl::minimise(double from, double to)
     beginInertia();
     terms_.push_back(inertia_.get());
   }
-  for (const Tissue& tissue : tissues_)
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
-    terms_.push_back(tissue.elasticity.get());
+    if (asleep_[k] == 0)
+    {
+      terms_.push_back(tissues_[k].elasticity.get());
+    }
   }
   const std::size_t first_contact = terms_.size();
   extrapolate(report_.time_s + to * config_.time_step_s);
@@ -171,6 +181,12 @@ NewtonReport Scene::Impl::descend(Points* other)
 {
   newton_options_.budget_s = timeLeft();
   const NewtonReport newton = newton_->minimise(terms_, newton_options_, x_, term_seconds_, other);
+  for (Tissue& tissue : tissues_)
+  {
+    const bool counts =
+        std::find(terms_.begin(), terms_.end(), tissue.elasticity.get()) != terms_.end();
+    tissue.evaluations += counts ? newton.evaluations : 0;
+  }
   report_.ms.solve += 1e3 * newton.linear_s;
   report_.newton_iterations += newton.iterations;
   report_.linear_iterations += newton.linear_iterations;
@@ -229,11 +245,13 @@ void Scene::Impl::finishStep()
   collectContacts();
   const Timer timer;
   report_.min_det_f = config_.tissues.empty() ? 1.0 : 1e300;
-  for (const Tissue& tissue : tissues_)
+  for (Tissue& tissue : tissues_)
   {
     if (tissue.tets != nullptr)
     {
-      report_.min_det_f = std::min(report_.min_det_f, tissue.tets->minDetF(x_));
+      tissue.min_det_f =
+          tissue.evaluations > 0 || report_.held ? tissue.tets->minDetF(x_) : tissue.min_det_f;
+      report_.min_det_f = std::min(report_.min_det_f, tissue.min_det_f);
     }
   }
   report_.ms.fem += 1e3 * timer.seconds();

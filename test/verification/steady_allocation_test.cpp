@@ -162,6 +162,23 @@ INSTANTIATE_TEST_SUITE_P(Threads, SteadyAllocation,
                                           testing::Values(ElementKind::tet4, ElementKind::tet10),
                                           testing::Values(Stepper::implicit_euler, Stepper::bdf2)));
 
+TEST(SteadyAllocation, aStepThatSleepsAllocatesNothing)
+{
+  SceneConfig config = rubbedLobe();
+  config.solver.sleep = SleepConfig{1e-3, 0.1, 0.0};
+  config.tools.at(0).pose_source.keyframes.resize(1);
+  Scene scene(config);
+  while (scene.step().sleeping == 0)
+  {
+    ASSERT_LT(scene.time(), 10.0) << "never at rest";
+  }
+  Snapshot snapshot;
+  scene.step();
+  scene.fillSnapshot(snapshot);
+  EXPECT_EQ(allocationsOf([&] { scene.step(); }), 0) << firstCaller();
+  EXPECT_EQ(scene.step().sleeping, 1);
+}
+
 TEST(AllocationCounter, seesEveryKind)
 {
   std::vector<int> numbers;

@@ -64,6 +64,12 @@ struct StepStart
   }
 };
 
+/** Nodes begin to end - 1. */
+struct NodeRange
+{
+  Index begin = 0, end = 0;
+};
+
 /** 1/(2 s^2) |x - target|^2 in the lumped mass, target = x' + s v': what makes a step of
  * StepFormula a minimisation. */
 class Inertia : public EnergyTerm
@@ -71,8 +77,14 @@ class Inertia : public EnergyTerm
  public:
   /** @param masses N, kg; must outlive the term */
   explicit Inertia(const std::vector<double>& masses)
-      : masses_(masses), target_(masses.size(), Vec3::Zero()), stiffness_(masses.size(), 0.0)
+      : masses_(masses),
+        target_(masses.size(), Vec3::Zero()),
+        stiffness_(masses.size(), 0.0),
+        nodes_{{0, static_cast<Index>(masses.size())}}
   {}
+
+  /** Counts these nodes alone, by ascending ranges; at first all. */
+  void setNodes(const std::vector<NodeRange>& nodes) { nodes_ = nodes; }
 
   /** Begins a step of nodes first to first + count - 1.
    * @return whether their second derivative is another than in the last step */
@@ -88,6 +100,7 @@ class Inertia : public EnergyTerm
   const std::vector<double>& masses_;
   Points target_;
   std::vector<double> stiffness_;  ///< mass over s^2
+  std::vector<NodeRange> nodes_;
 };
 
 /** -sum m g . x. */
@@ -97,8 +110,11 @@ class Gravity : public EnergyTerm
   /** @param masses N, kg, lumped or addLoadMasses(); must outlive the term
    * @param acceleration m/s^2, world */
   Gravity(const std::vector<double>& masses, const Vec3& acceleration)
-      : masses_(masses), acceleration_(acceleration)
+      : masses_(masses), acceleration_(acceleration), nodes_{{0, static_cast<Index>(masses.size())}}
   {}
+
+  /** Counts these nodes alone, by ascending ranges; at first all. */
+  void setNodes(const std::vector<NodeRange>& nodes) { nodes_ = nodes; }
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
@@ -107,6 +123,7 @@ class Gravity : public EnergyTerm
  private:
   const std::vector<double>& masses_;
   Vec3 acceleration_;
+  std::vector<NodeRange> nodes_;
 };
 
 /** Dead loads: -sum f . x, f constant in the world. */

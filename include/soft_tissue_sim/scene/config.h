@@ -236,6 +236,14 @@ enum class Stepper
   quasi_static,
 };
 
+/** When tissues are at rest: then they are left out until something comes near. */
+struct SleepConfig
+{
+  double speed_m_per_s = 1e-3;         ///< no node is faster
+  double acceleration_m_per_s2 = 0.1;  ///< nor gets faster more quickly
+  double after_s = 0.5;                ///< for so long
+};
+
 struct SolverConfig
 {
   Stepper stepper = Stepper::implicit_euler;
@@ -245,6 +253,7 @@ struct SolverConfig
   /** Wall time a step may take; empty: as long as it needs. With one, steps depend on the machine
    * and its load. */
   std::optional<double> budget_ms;
+  std::optional<SleepConfig> sleep;  ///< empty: never
 };
 
 struct OutputsConfig

@@ -41,6 +41,7 @@ struct StepReport
   double min_det_f = 1.0;
   double max_penetration_m = 0.0;
   int contacts = 0;
+  int sleeping = 0;  ///< tissues and membranes that were left out, see SolverConfig::sleep
   StageTimes ms;
 };
 
@@ -88,6 +89,8 @@ struct TissueState
   Points positions;              ///< N, world, m
   Points velocities;             ///< N, world, m/s
   std::vector<float> von_mises;  ///< M, Pa; empty unless the scene asks for stress
+  bool asleep = false;           ///< from the end of this step on
+  int evaluations = 0;           ///< of its elastic energy, forces or stiffness in this step
 };
 
 struct ToolState
@@ -170,8 +173,8 @@ class Scene
   /** Rest shape, zero velocity, tools at their initial poses; time goes on. */
   void resetWorld();
 
-  /** Hash of every bit of the dynamic state: positions, velocities, accelerations, tool
-   * poses, step count. */
+  /** Hash of every bit of the dynamic state: positions, velocities, accelerations, what
+   * the stepper carries on, who sleeps, tool poses, step count. */
   std::uint64_t stateHash() const;
 
   /** Copies the state out, reusing the memory `snapshot` already has. */
