@@ -213,8 +213,8 @@ void Scene::Impl::fallAsleep()
   }
 }
 
-/** Leaves what sleeps out of the terms of inertia and gravity and out of the solver, at rest now and
- * before. */
+/** Leaves what sleeps out of the terms of inertia and gravity and out of the solver, at rest now
+ * and before. */
 void Scene::Impl::setSleepers()
 {
   std::vector<NodeRange> awake;

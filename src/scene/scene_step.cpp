@@ -125,14 +125,19 @@ bool Scene::Impl::minimise(double from, double to)
   beginContacts(from, to);
   term_seconds_.assign(terms_.size(), 0.0);
   NewtonReport newton = findBalance();
+  bool unfinished = false;
   if (config_.solver.stepper == Stepper::bdf2)
   {
     std::fill(smooth_.begin(), smooth_.end(), 1);
-    while (newton.finite && findBlows())
+    while (newton.finite && !unfinished && findBlows())
     {
       dropThePast(h);
-      extrapolate(report_.time_s + to * config_.time_step_s);
-      newton = findBalance();
+      unfinished = timeLeft() <= 0.0;
+      if (!unfinished)
+      {
+        extrapolate(report_.time_s + to * config_.time_step_s);
+        newton = findBalance();
+      }
     }
   }
   for (std::size_t k = 0; k < first_contact; ++k)
@@ -140,12 +145,16 @@ bool Scene::Impl::minimise(double from, double to)
     report_.ms.fem += 1e3 * term_seconds_[k];
   }
   const double failed = std::max(kFailedResidual, config_.solver.tolerance);
-  if (!newton.finite || !(newton.converged || newton.out_of_time || newton.residual <= failed))
+  // Where no time is left, halves of the step would only make it later.
+  const bool far = !newton.converged && newton.residual > failed;
+  unfinished |= far && (newton.out_of_time || timeLeft() <= 0.0);
+  report_.out_of_time |= unfinished;
+  if (!newton.finite || (far && !unfinished))
   {
     std::fill(smooth_.begin(), smooth_.end(), 0);
     return false;
   }
-  if (newton.out_of_time && newton.residual > failed)
+  if (unfinished)
   {
     standStillIfBetter(h);
   }
