@@ -158,8 +158,9 @@ void Scene::Impl::makeSolver()
     const Tissue& tissue = tissues_[k];
     for (Index node = 0; node < tissue.node_count; ++node)
     {
-      for (const Index* other = tissue.neighbours.begin(node); other != tissue.neighbours.end(node);
-           ++other)
+      // What sleeps has no share in the matrix but ones on its diagonal.
+      for (const Index* other = tissue.neighbours.begin(node);
+           asleep_[k] == 0 && other != tissue.neighbours.end(node); ++other)
       {
         all.items.push_back(tissue.first_node + *other);
       }

@@ -114,6 +114,8 @@ void Scene::Impl::takeVelocities(double h)
       goal_[k] = motionOf(k, before_);
       goal_[k].centre += h * goal_[k].velocity + fallen * h * h * config_.gravity_m_per_s2;
       goal_[k].velocity += h * config_.gravity_m_per_s2;
+      const Vec3 off = goal_[k].centre - motionOf(k, x_).centre;
+      forEachNodeOf(k, [&](Index i, std::size_t) { x_[i] += off; });
     }
   }
   const StepStart start = startOfPart();
@@ -156,10 +158,13 @@ void Scene::Impl::keepMotion(std::size_t group, double h)
   const Mat3 on = angle > 0.0 ? Eigen::AngleAxisd(angle, turning.normalized()).toRotationMatrix()
                               : Mat3::Identity();
   const Motion& goal = goal_[group];
+  // The chord of implicit Euler has the right mean by now.
+  const Vec3 missed = config_.solver.stepper == Stepper::bdf2 ? Vec3(goal.velocity - found.velocity)
+                                                              : Vec3(Vec3::Zero());
   forEachNodeOf(group, [&](Index i, std::size_t tissue) {
     const Vec3 v = v_[i] - found.velocity;
-    x_[i] += goal.centre - found.centre;
-    v_[i] = goal.velocity + (formula_[tissue].carried > 0.0 ? v : on * v);
+    v_[i] = found.velocity + missed + (formula_[tissue].carried > 0.0 ? v : on * v);
+    acceleration_[i] += missed / formula_[tissue].effective_s;
   });
   const Motion turned = motionOf(group, x_);
   const Vec3 missing = angularVelocity(turned.inertia, goal.spin - turned.spin);

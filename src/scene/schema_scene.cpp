@@ -38,13 +38,13 @@ const Section<SolverConfig>& solverSection()
 {
   static const Section<SolverConfig> section =
       Section<SolverConfig>("solver", "How a step is solved.")
-          .optional("stepper", &SolverConfig::stepper,
-                    choice<Stepper>({{"implicit_euler", Stepper::implicit_euler},
-                                     {"bdf2", Stepper::bdf2},
-                                     {"quasi_static", Stepper::quasi_static}}),
-                    "implicit_euler: with inertia, of first order; bdf2: of second order, for the "
-                    "same work a step, and hardly damps what steps resolve; quasi_static: "
-                    "equilibrium at each step.")
+          .optional(
+              "stepper", &SolverConfig::stepper,
+              choice<Stepper>({{"implicit_euler", Stepper::implicit_euler},
+                               {"bdf2", Stepper::bdf2},
+                               {"quasi_static", Stepper::quasi_static}}),
+              "implicit_euler: with inertia, of first order; bdf2: of second order, and hardly "
+              "damps what steps resolve; quasi_static: equilibrium at each step.")
           .optional("tolerance", &SolverConfig::tolerance, number(0.0, 0.1, Ends::open_below),
                     "Residual at which Newton's method stops, over the sum of the norms of the "
                     "acting forces.")

@@ -214,6 +214,38 @@ TEST_P(Sleep, AToolWakesWhatItComesNearToAndNothingElse)
   EXPECT_LT(off, 0.02 * force);
 }
 
+// Matrices without the one and without the other have as many blocks, at other places.
+TEST_P(DampedSleep, EqualTissuesSleepInTurn)
+{
+  SceneConfig config = lobe(0.05);
+  addTissue(config, "other", config.tissues[0].mesh.file, {0.5, 0.0, 0.0});
+  config.tissues.back().fixed.push_back({Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, 0.001)});
+  addPair(config, "other", "tool", Response::segment);
+  Scene scene(config), restless(neverSleeping(config));
+  const Pose start = config.tools[0].initial_pose.toPose();
+  int first_alone = 0, second_alone = 0;
+  double apart = 0.0;
+  for (int n = 0; n < 800; ++n)
+  {
+    Pose goal = raised(start, -0.025 * (1.0 - std::cos(0.05 * M_PI * n)) * 1.08);
+    goal.translation().x() += n % 400 < 200 ? 0.0 : 0.5;
+    for (Scene* each : {&scene, &restless})
+    {
+      each->setToolTarget(0, goal);
+      each->step();
+    }
+    const Snapshot now = snapshotOf(scene);
+    first_alone += now.tissues[0].evaluations > 0 && now.tissues[1].evaluations == 0 ? 1 : 0;
+    second_alone += now.tissues[1].evaluations > 0 && now.tissues[0].evaluations == 0 ? 1 : 0;
+    apart = std::max(apart, farthestApart(scene, restless));
+  }
+  std::printf("  alone awake for %d and %d steps, %.3f mm off\n", first_alone, second_alone,
+              1e3 * apart);
+  EXPECT_GT(first_alone, 20);
+  EXPECT_GT(second_alone, 20);
+  EXPECT_LT(apart, 1e-4);
+}
+
 TEST_P(DampedSleep, PressedTissueSleepsUnderAToolThatStandsStill)
 {
   SceneConfig config = lobe(-0.001);
