@@ -12,7 +12,8 @@ namespace soft_tissue::studies
 enum class Ending
 {
   returns,   ///< to the rest shape, at rest
-  anything,  ///< it keeps being driven, or may settle in another shape
+  settles,   ///< at rest, nothing inside out; a fold at the fixed end may stay
+  anything,  ///< it keeps being driven, or swings on, or sags
 };
 
 /** A scene that is hard on a solver. */
@@ -37,14 +38,19 @@ struct HardResult
   double least_det_f = 0.0;  ///< after the first fifth of the steps
   double last_det_f = 0.0;
   double strain_left = 0.0;    ///< largest change of an edge's length at the end, as a share
-  double speed_left = 0.0;     ///< root mean square at the end, m/s
+  double rate_left = 0.0;      ///< how fast an edge's length changes at the end at most, m/s
   double energy_growth = 0.0;  ///< kinetic energy's peak in the second half over that in the first
   int held = 0;                ///< steps
   double newton = 0.0;         ///< iterations a step, mean
   double seconds = 0.0;
 
-  /** Whether it is back in its rest shape, and still. */
-  bool recovered() const { return last_det_f > 0.0 && strain_left < 0.02 && speed_left < 0.01; }
+  bool settled() const { return last_det_f > 0.0 && rate_left < 0.01; }
+  bool returned() const { return settled() && strain_left < 0.02; }
+  /** Whether it ended as it should. */
+  bool endedAs(Ending ending) const
+  {
+    return ending == Ending::anything || (ending == Ending::settles ? settled() : returned());
+  }
 };
 
 /**

@@ -23,6 +23,24 @@ void addShares(const QuadraticTetMesh& rest, const std::vector<double>& densitie
     }
   }
 }
+/** Sum of f(i) over all nodes of some ranges. */
+template <typename Function>
+double sumOver(const std::vector<NodeRange>& ranges, const Function& f)
+{
+  double all = 0.0;
+  for (const NodeRange& range : ranges)
+  {
+    all += parallelSum(range.end - range.begin, kGrain, [&](Index begin, Index end) {
+      double sum = 0.0;
+      for (Index i = range.begin + begin; i < range.begin + end; ++i)
+      {
+        sum += f(i);
+      }
+      return sum;
+    });
+  }
+  return all;
+}
 }  // namespace
 
 void addLumpedMasses(const TetMesh& rest, const std::vector<double>& densities, Index first_node,
@@ -68,105 +86,80 @@ void addLoadMasses(const QuadraticTetMesh& rest, const std::vector<double>& dens
   addShares(rest, densities, first_node, -1.0 / 20.0, 1.0 / 5.0, masses);
 }
 
-void Inertia::beginStep(const Points& x, const Points& velocities, double step)
+StepFormula StepFormula::bdf2(double step_s, double last_step_s)
 {
-  target_.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-  {
-    target_[i] = x[i] + step * velocities[i];
-  }
-  inverse_square_step_ = 1.0 / (step * step);
+  const double ratio = step_s / last_step_s;
+  return {step_s * (1.0 + ratio) / (1.0 + 2.0 * ratio), ratio * ratio / (1.0 + 2.0 * ratio)};
 }
 
-double Inertia::value(const Points& x)
+double NodalSprings::value(const Points& x)
 {
-  return 0.5 * inverse_square_step_ *
-         parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
-           double sum = 0.0;
-           for (Index i = begin; i < end; ++i)
-           {
-             sum += masses_[i] * (x[i] - target_[i]).squaredNorm();
-           }
-           return sum;
-         });
+  return 0.5 * sumOver(nodes_,
+                       [&](Index i) { return stiffness_[i] * (x[i] - places_[i]).squaredNorm(); });
 }
 
-void Inertia::addGradient(const Points& x, Points& gradient)
+void NodalSprings::addGradient(const Points& x, Points& gradient)
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (const NodeRange& range : nodes_)
   {
-    gradient[i] += inverse_square_step_ * masses_[i] * (x[i] - target_[i]);
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+      gradient[i] += stiffness_[i] * (x[i] - places_[i]);
+    }
   }
 }
 
-void Inertia::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& hessian)
+void NodalSprings::addHessian(const Points& /*x*/, Curvature /*curvature*/, BlockMatrix& hessian)
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (const NodeRange& range : nodes_)
   {
-    double* block = hessian.block(hessian.diagonal(static_cast<Index>(i)));
-    const double stiffness = inverse_square_step_ * masses_[i];
-    block[0] += stiffness;
-    block[4] += stiffness;
-    block[8] += stiffness;
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+      double* block = hessian.block(hessian.diagonal(i));
+      block[0] += stiffness_[i];
+      block[4] += stiffness_[i];
+      block[8] += stiffness_[i];
+    }
   }
 }
 
-void Drag::beginStep(const Points& x, double step)
+bool Inertia::beginStep(Index first, Index count, const StepStart& start,
+                        const StepFormula& formula)
 {
-  start_ = x;
-  inverse_step_ = 1.0 / step;
-}
-
-double Drag::value(const Points& x)
-{
-  return 0.5 * inverse_step_ *
-         parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
-           double sum = 0.0;
-           for (Index i = begin; i < end; ++i)
-           {
-             sum += coefficients_[i] * (x[i] - start_[i]).squaredNorm();
-           }
-           return sum;
-         });
-}
-
-void Drag::addGradient(const Points& x, Points& gradient)
-{
-  for (std::size_t i = 0; i < x.size(); ++i)
+  const double per_square = 1.0 / (formula.effective_s * formula.effective_s);
+  bool other = false;
+  for (Index i = first; i < first + count; ++i)
   {
-    gradient[i] += inverse_step_ * coefficients_[i] * (x[i] - start_[i]);
+    places_[i] = start.position(i, formula) + formula.effective_s * start.velocity(i, formula);
+    const double stiffness = per_square * masses_[i];
+    other = other || stiffness != stiffness_[i];
+    stiffness_[i] = stiffness;
   }
+  return other;
 }
 
-void Drag::addHessian(const Points& x, Curvature /*curvature*/, BlockMatrix& hessian)
+void Drag::beginStep(Index first, Index count, const StepStart& start, const StepFormula& formula)
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (Index i = first; i < first + count; ++i)
   {
-    double* block = hessian.block(hessian.diagonal(static_cast<Index>(i)));
-    const double stiffness = inverse_step_ * coefficients_[i];
-    block[0] += stiffness;
-    block[4] += stiffness;
-    block[8] += stiffness;
+    places_[i] = start.position(i, formula);
+    stiffness_[i] = coefficients_[i] / formula.effective_s;
   }
 }
 
 double Gravity::value(const Points& x)
 {
-  return -parallelSum(static_cast<Index>(x.size()), kGrain, [&](Index begin, Index end) {
-    double sum = 0.0;
-    for (Index i = begin; i < end; ++i)
-    {
-      sum += masses_[i] * acceleration_.dot(x[i]);
-    }
-    return sum;
-  });
+  return -sumOver(nodes_, [&](Index i) { return masses_[i] * acceleration_.dot(x[i]); });
 }
 
-void Gravity::addGradient(const Points& x, Points& gradient)
+void Gravity::addGradient(const Points& /*x*/, Points& gradient)
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
+  for (const NodeRange& range : nodes_)
   {
-    gradient[i] -= masses_[i] * acceleration_;
+    for (Index i = range.begin; i < range.end; ++i)
+    {
+      gradient[i] -= masses_[i] * acceleration_;
+    }
   }
 }
 

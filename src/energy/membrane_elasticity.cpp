@@ -281,7 +281,9 @@ double MembraneElasticity::valueAndGradient(const Points& x, Points& gradient)
 
 void MembraneElasticity::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
 {
-  if (parts_->matrix_blocks != hessian.columns().size())
+  // A matrix whose pattern differs elsewhere has this body's blocks moved as one.
+  if (parts_->matrix_blocks != hessian.columns().size() ||
+      parts_->positions.front() != hessian.diagonal(parts_->patches.front().nodes[0]))
   {
     parts_->findPositions(hessian);
   }

@@ -178,7 +178,11 @@ double TetTerm::valueAndGradient(const Points& x, Points& gradient)
 
 void TetTerm::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
 {
-  if (matrix_blocks_ != hessian.columns().size())
+  // A matrix whose pattern differs elsewhere has this body's blocks moved as one.
+  const BlockNodes& first = kernels_->blocks[0];
+  if (matrix_blocks_ != hessian.columns().size() ||
+      positions_.front() !=
+          hessian.find(nodes_[kTetLanes * first[0]], nodes_[kTetLanes * first[1]]))
   {
     findPositions(hessian);
   }

@@ -92,6 +92,7 @@ void Diagnostics::reportPhysics(DiagnosticStatusWrapper& status)
   status.add("converged", static_cast<bool>(report_.converged));
   status.add("out of time", static_cast<bool>(report_.out_of_time));
   status.add("position error (m)", report_.position_error_m);
+  status.add("bodies asleep", report_.sleeping);
   status.add("marker arrays built", scene_topics_.markerArraysBuilt());
 }
 

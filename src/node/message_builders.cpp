@@ -178,6 +178,7 @@ SimStats statsMessage(const Snapshot& snapshot, double real_time_factor, const S
   message.min_det_f = report.min_det_f;
   message.max_penetration = report.max_penetration_m;
   message.contacts = static_cast<std::uint32_t>(report.contacts);
+  message.sleeping = static_cast<std::uint32_t>(report.sleeping);
   message.state_hash = snapshot.state_hash;
   return message;
 }

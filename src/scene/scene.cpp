@@ -13,6 +13,7 @@ namespace soft_tissue
 void Scene::Impl::setOff()
 {
   stop();
+  forgetPast();
   const Points still = v_;
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
@@ -51,7 +52,10 @@ void Scene::Impl::resetWorld()
 /** What was found on the way must not show in what follows. */
 void Scene::Impl::forgetWay()
 {
-  makeSolver();
+  forgetPast();
+  std::fill(asleep_.begin(), asleep_.end(), 0);
+  std::fill(quiet_s_.begin(), quiet_s_.end(), 0.0);
+  setSleepers();
   for (Contact& contact : contacts_)
   {
     contact.term->forget();
@@ -99,6 +103,19 @@ std::uint64_t Scene::Impl::stateHash() const
       tissue.tets->addTo(hash);
     }
   }
+  if (config_.solver.stepper == Stepper::bdf2)
+  {
+    hash.add(x_last_.data(), x_last_.size() * sizeof(Vec3));
+    hash.add(v_last_.data(), v_last_.size() * sizeof(Vec3));
+    hash.add(smooth_.data(), smooth_.size());
+    hash.addValue(last_h_);
+  }
+  if (config_.solver.sleep)
+  {
+    hash.add(asleep_.data(), asleep_.size());
+    hash.add(quiet_s_.data(), quiet_s_.size() * sizeof(double));
+    hash.add(island_.data(), island_.size() * sizeof(std::size_t));
+  }
   for (const Tool& tool : tools_)
   {
     hash.add(tool.X_WT.data(), 16 * sizeof(double));
@@ -119,6 +136,8 @@ void Scene::Impl::fillSnapshot(Snapshot& snapshot)
     state.positions.assign(first, first + tissue.node_count);
     const auto first_v = v_.begin() + tissue.first_node;
     state.velocities.assign(first_v, first_v + tissue.node_count);
+    state.asleep = asleep_[k] != 0;
+    state.evaluations = tissue.evaluations;
     if (config_.outputs.stress && tissue.tets != nullptr)
     {
       tissue.tets->vonMises(x_, state.von_mises);

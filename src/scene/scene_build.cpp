@@ -35,7 +35,13 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   tissue_info_.reserve(tissues_.size());
   group_.resize(tissues_.size());
   held_.resize(tissues_.size());
-  spin_.resize(tissues_.size());
+  goal_.resize(tissues_.size());
+  formula_.resize(tissues_.size());
+  smooth_.resize(tissues_.size());
+  asleep_.resize(tissues_.size());
+  quiet_s_.resize(tissues_.size());
+  island_.resize(tissues_.size());
+  islands_found_.resize(tissues_.size());
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
     k < config_.tissues.size() ? addTissue(k) : addMembrane(k);
@@ -43,6 +49,9 @@ Scene::Impl::Impl(const SceneConfig& config) : config_(config)
   x_rest_ = x_;
   v_.resize(x_.size());
   acceleration_.resize(x_.size());
+  x_last_ = x_;
+  v_last_.assign(x_.size(), Vec3::Zero());
+  contact_force_.assign(x_.size(), Vec3::Zero());
   inertia_ = std::make_unique<Inertia>(masses_);
   makeDrag();
   gravity_ = std::make_unique<Gravity>(load_masses_, config_.gravity_m_per_s2);
@@ -172,14 +181,19 @@ void Scene::Impl::makeSolver()
     const Tissue& tissue = tissues_[k];
     for (Index node = 0; node < tissue.node_count; ++node)
     {
-      for (const Index* other = tissue.neighbours.begin(node); other != tissue.neighbours.end(node);
-           ++other)
+      // What sleeps has no share in the matrix but ones on its diagonal.
+      for (const Index* other = tissue.neighbours.begin(node);
+           asleep_[k] == 0 && other != tissue.neighbours.end(node); ++other)
       {
         all.items.push_back(tissue.first_node + *other);
       }
       all.offsets.push_back(static_cast<Index>(all.items.size()));
     }
     for (const Index node : tissue_info_[k].fixed_nodes)
+    {
+      held.push_back(tissue.first_node + node);
+    }
+    for (Index node = 0; asleep_[k] != 0 && node < tissue.node_count; ++node)
     {
       held.push_back(tissue.first_node + node);
     }

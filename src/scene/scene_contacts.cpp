@@ -71,6 +71,10 @@ int Scene::Impl::partsOfStep() const
   double parts = 1.0;
   for (const Contact& contact : contacts_)
   {
+    if (sleeps(contact))
+    {
+      continue;
+    }
     const double moved = contact.with_tool != nullptr       ? motionOfTool(contact)
                          : contact.with_obstacle != nullptr ? motionInObstacle(contact)
                                                             : motionOfTissues(contact);
@@ -138,9 +142,12 @@ void Scene::Impl::beginContacts(double from, double to)
 {
   for (const Contact& contact : contacts_)
   {
-    contact.term->setStep(config_.solver.stepper == Stepper::quasi_static
-                              ? std::numeric_limits<double>::infinity()
-                              : (to - from) * config_.time_step_s);
+    if (sleeps(contact))
+    {
+      continue;
+    }
+    contact.term->setStep(isDynamic() ? (to - from) * config_.time_step_s
+                                      : std::numeric_limits<double>::infinity());
     contact.term->setStiffening(std::max(1.0, kRelaxed * contact.term->stiffening()));
     if (contact.with_tool != nullptr)
     {
@@ -169,7 +176,7 @@ bool Scene::Impl::stiffenWhereTooDeep()
   bool any = false;
   for (const Contact& contact : contacts_)
   {
-    if (!contact.max_penetration_m || !contact.term->active())
+    if (!contact.max_penetration_m || sleeps(contact) || !contact.term->active())
     {
       continue;
     }
@@ -223,6 +230,10 @@ void Scene::Impl::collectContacts()
       continue;
     }
     const bool rigid = contact.with_tissue == nullptr;
+    if (!rigid && asleep_[contact.tissue] != asleep_[contact.other])
+    {
+      continue;  // nothing awake is near
+    }
     std::vector<ContactPoint>& points = pointsOf(contact);
     for (const ContactSample& sample : contact.term->samples(x_))
     {

@@ -18,9 +18,12 @@ namespace soft_tissue
 {
 struct SoftBodyModel;
 
+/** A minimisation that stops with more of the forces unbalanced has failed: the step is halved. */
+constexpr double kFailedResidual = 0.05;
+
 /** The scene itself. Building is in scene_build.cpp, its contacts in
  * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
- * scene_step.cpp, reading out in scene.cpp. */
+ * scene_step.cpp and scene_inertia.cpp, resting in scene_sleep.cpp, reading out in scene.cpp. */
 class Scene::Impl
 {
  public:
@@ -63,6 +66,9 @@ class Scene::Impl
     std::unique_ptr<EnergyTerm> membrane;    ///< elasticity of a membrane
     double short_edge = 0.0;                 ///< see TissueBody
     double inner_radius = 0.0;               ///< see innerRadius(); 0: not known yet
+    double min_det_f = 1.0;                  ///< after the last step that moved it
+    int evaluations = 0;                     ///< see TissueState
+    Box3 reach;                              ///< see findReaches()
   };
   /** Nodes that key frames move. */
   struct MovedNodes
@@ -94,6 +100,8 @@ class Scene::Impl
     std::optional<double> max_penetration_m;
     double start_depth_m = 0.0;  ///< two tissues start in each other by, if that is deep
     double allowance_m = 0.0;    ///< what of it presses nothing yet
+    Points force, last_force;  ///< minus those on nodes of both, at the end of this part of a step
+                               ///< and of the last; for bdf2 alone
   };
   /** How a group of tissues moves as a whole. */
   struct Motion
@@ -155,19 +163,37 @@ class Scene::Impl
   void beginContacts(double from, double to);
   bool advance(double from, double to, int depth);
   bool minimise(double from, double to);
-  NewtonReport findBalance(Points* other);
+  NewtonReport findBalance();
+  NewtonReport descend(Points* other);
+  bool isDynamic() const { return config_.solver.stepper != Stepper::quasi_static; }
+  void chooseFormulas(double h);
+  StepStart startOfPart() const;
+  void beginInertia();
+  void dropThePast(double h);
+  bool findBlows();
+  void takeForce(Contact& contact);
+  void forgetPast();
+  std::size_t sleepers() const;
+  bool sleeps(const Contact& contact) const;
+  void findReaches();
+  bool areNear(const Contact& contact) const;
+  bool isDriven(std::size_t tissue) const;
+  bool isQuiet(std::size_t tissue) const;
+  void wakeUp();
+  void fallAsleep();
+  void setSleepers();
   bool stiffenWhereTooDeep();
   double timeLeft() const;
-  void standStillIfBetter(double potential);
-  void extrapolate(double h, double end_s);
+  void standStillIfBetter(double h);
+  void extrapolate(double end_s);
   void placeMovedNodes(double time_s, Points& x) const;
   template <typename Visit>
   void forEachNodeOf(std::size_t group, const Visit& visit) const;
   Motion motionOf(std::size_t group, const Points& x) const;
   void findGroups();
   void takeVelocities(double h);
-  Vec3 missOf(std::size_t group, const Motion& start, double h) const;
-  void keepSpin(std::size_t group, double h);
+  Vec3 endOf(std::size_t group, const Motion& start, double h) const;
+  void keepMotion(std::size_t group, double h);
   void setOff();
   void stop();
   void forgetWay();
@@ -181,9 +207,13 @@ class Scene::Impl
   std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
   Points x_, x_rest_, v_;
   Points acceleration_;  ///< of the last step, to start the next one from; moves nothing by itself
-  std::vector<std::size_t> group_;  ///< per tissue: the first of those it touches, itself included
-  std::vector<char> held_;          ///< per tissue: something outside holds it or its group
-  Points spin_;                     ///< per free group: its spin when the step began
+  std::vector<std::size_t> group_;   ///< per tissue: the first of those it touches, itself included
+  std::vector<char> held_;           ///< per tissue: something outside holds it or its group
+  std::vector<Motion> goal_;         ///< per free group: how it moves at the end of the step
+  std::vector<char> asleep_;         ///< per tissue: it is left out
+  std::vector<double> quiet_s_;      ///< per tissue that is awake: for how long it hardly moved
+  std::vector<std::size_t> island_;  ///< per tissue that sleeps: the first of those it sleeps with
+  std::vector<std::size_t> islands_found_;
   std::vector<double> masses_;
   std::vector<double> load_masses_;  ///< what gravity pulls at
   std::vector<double> drags_;        ///< kg/s; empty: none
@@ -193,14 +223,19 @@ class Scene::Impl
   std::unique_ptr<NewtonSolver> newton_;
   NewtonOptions newton_options_;
   Timer step_timer_;
-  double finish_s_ = 0.0;  ///< what reading out the last step took
-  double last_h_ = 0.0;    ///< length of the last part of a step, s
+  double finish_s_ = 0.0;             ///< what reading out the last step took
+  double last_h_ = 0.0;               ///< length of the last part of a step, s
+  Points x_last_, v_last_;            ///< where that began
+  std::vector<char> smooth_;          ///< per tissue: steps may carry on what was before
+  std::vector<StepFormula> formula_;  ///< per tissue, of the running part of a step
+  Points contact_force_;              ///< zero outside takeForce()
   std::vector<EnergyTerm*> terms_;
   std::vector<double> term_seconds_;
   Points extrapolated_;
   Points before_step_;             ///< positions at the start of the running step
   Points before_;                  ///< positions at the start of the running minimisation
   std::vector<SavedState> saved_;  ///< one per level of halving
+  bool was_held_ = false;          ///< the last step
 };
 
 }  // namespace soft_tissue

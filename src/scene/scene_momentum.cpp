@@ -22,7 +22,8 @@ Vec3 angularVelocity(const Mat3& inertia, const Vec3& spin)
 }
 }  // namespace
 
-/** Calls visit(row) for the nodes of a group of tissues that have mass; others are in no tet. */
+/** Calls visit(row, tissue) for the nodes of a group of tissues that have mass; others are in no
+ * tet. */
 template <typename Visit>
 void Scene::Impl::forEachNodeOf(std::size_t group, const Visit& visit) const
 {
@@ -33,7 +34,7 @@ void Scene::Impl::forEachNodeOf(std::size_t group, const Visit& visit) const
     {
       if (masses_[i] > 0.0)
       {
-        visit(i);
+        visit(i, k);
       }
     }
   }
@@ -53,7 +54,7 @@ void Scene::Impl::findGroups()
   }
   for (const Contact& contact : contacts_)
   {
-    if (!contact.term->active())
+    if (sleeps(contact) || !contact.term->active())
     {
       continue;
     }
@@ -74,14 +75,14 @@ void Scene::Impl::findGroups()
 Scene::Impl::Motion Scene::Impl::motionOf(std::size_t group, const Points& x) const
 {
   Motion motion;
-  forEachNodeOf(group, [&](Index i) {
+  forEachNodeOf(group, [&](Index i, std::size_t) {
     motion.mass += masses_[i];
     motion.centre += masses_[i] * x[i];
     motion.velocity += masses_[i] * v_[i];
   });
   motion.centre /= motion.mass;
   motion.velocity /= motion.mass;
-  forEachNodeOf(group, [&](Index i) {
+  forEachNodeOf(group, [&](Index i, std::size_t) {
     const Vec3 arm = x[i] - motion.centre;
     motion.spin += masses_[i] * arm.cross(v_[i] - motion.velocity);
     motion.inertia += masses_[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
@@ -89,23 +90,24 @@ Scene::Impl::Motion Scene::Impl::motionOf(std::size_t group, const Points& x) co
   return motion;
 }
 
-/** How far a free group that began like this is from where its momentum has it at the end, m. */
-Vec3 Scene::Impl::missOf(std::size_t group, const Motion& start, double h) const
+/** Where the momentum of a free group that began like this has its centre at the end, m. */
+Vec3 Scene::Impl::endOf(std::size_t group, const Motion& start, double h) const
 {
-  const Vec3 reached = motionOf(group, x_).centre;
-  const Vec3 flown = h * start.velocity + h * h * config_.gravity_m_per_s2;
+  const double fallen = config_.solver.stepper == Stepper::bdf2 ? 0.5 : 1.0;
+  const Vec3 flown = h * start.velocity + fallen * h * h * config_.gravity_m_per_s2;
   if (drag_ == nullptr)
   {
-    return start.centre + flown - reached;
+    return start.centre + flown;
   }
   // M miss = M (flown - way) - h sum c (way of the node + miss)
+  const Vec3 reached = motionOf(group, x_).centre;
   Vec3 dragged = Vec3::Zero();
   double heavier = start.mass;
-  forEachNodeOf(group, [&](Index i) {
+  forEachNodeOf(group, [&](Index i, std::size_t) {
     dragged += h * drags_[i] * (x_[i] - before_[i]);
     heavier += h * drags_[i];
   });
-  return (start.mass * (flown - (reached - start.centre)) - dragged) / heavier;
+  return reached + (start.mass * (flown - (reached - start.centre)) - dragged) / heavier;
 }
 
 /**
@@ -115,54 +117,85 @@ Vec3 Scene::Impl::missOf(std::size_t group, const Motion& start, double h) const
  * drag. The first is what the minimiser would have, and is met however far from it the minimisation
  * stopped: moving all as one changes no other force. The second implicit Euler loses: its velocity
  * is that of the chord from before_ to x_. It is turned on by half the step's rotation to the end
- * of the step, and given the spin that is missing.
+ * of the step, and given the spin that is missing. bdf2 has the velocity of the step's end, and
+ * falls as far as bodies do; with drag its bodies keep the motion the minimiser gives them.
  */
 void Scene::Impl::takeVelocities(double h)
 {
   findGroups();
-  const auto isFree = [&](std::size_t k) { return group_[k] == k && held_[k] == 0; };
+  const auto isFree = [&](std::size_t k) {
+    const bool dragged = drag_ != nullptr && config_.solver.stepper == Stepper::bdf2;
+    return group_[k] == k && held_[k] == 0 && asleep_[k] == 0 && !dragged;
+  };
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
     if (isFree(k))
     {
-      const Motion start = motionOf(k, before_);
-      spin_[k] = start.spin;
-      const Vec3 off = missOf(k, start, h);
-      forEachNodeOf(k, [&](Index i) { x_[i] += off; });
+      goal_[k] = motionOf(k, before_);
+      goal_[k].centre = endOf(k, goal_[k], h);
+      goal_[k].velocity += h * config_.gravity_m_per_s2;
+      const Vec3 off = goal_[k].centre - motionOf(k, x_).centre;
+      forEachNodeOf(k, [&](Index i, std::size_t) { x_[i] += off; });
     }
   }
-  for (std::size_t i = 0; i < x_.size(); ++i)
+  const StepStart start = startOfPart();
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
-    const Vec3 v = (x_[i] - before_[i]) / h;
-    acceleration_[i] = (v - v_[i]) / h;
-    v_[i] = v;
+    const StepFormula& formula = formula_[k];
+    const Index end = tissues_[k].first_node + tissues_[k].node_count;
+    for (Index i = tissues_[k].first_node; i < end; ++i)
+    {
+      const Vec3 v = (x_[i] - start.position(i, formula)) / formula.effective_s;
+      acceleration_[i] = (v - start.velocity(i, formula)) / formula.effective_s;
+      v_last_[i] = v_[i];
+      v_[i] = v;
+    }
+  }
+  x_last_.swap(before_);
+  last_h_ = h;
+  for (Contact& contact : contacts_)
+  {
+    if (!sleeps(contact))
+    {
+      contact.last_force.swap(contact.force);
+    }
   }
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
     if (isFree(k))
     {
-      keepSpin(k, h);
+      keepMotion(k, h);
     }
   }
 }
 
-void Scene::Impl::keepSpin(std::size_t group, double h)
+/** Gives a free group the motion it should have. */
+void Scene::Impl::keepMotion(std::size_t group, double h)
 {
-  const Motion chord = motionOf(group, x_);
+  const Motion found = motionOf(group, x_);
   if (drag_ != nullptr)
   {
-    forEachNodeOf(group, [&](Index i) {
-      spin_[group] -= h * drags_[i] * (x_[i] - chord.centre).cross(v_[i]);
+    forEachNodeOf(group, [&](Index i, std::size_t) {
+      goal_[group].spin -= h * drags_[i] * (x_[i] - found.centre).cross(v_[i]);
     });
   }
-  const Vec3 turning = angularVelocity(chord.inertia, chord.spin);
+  const Vec3 turning = angularVelocity(found.inertia, found.spin);
   const double angle = 0.5 * h * turning.norm();
   const Mat3 on = angle > 0.0 ? Eigen::AngleAxisd(angle, turning.normalized()).toRotationMatrix()
                               : Mat3::Identity();
-  forEachNodeOf(group, [&](Index i) { v_[i] = chord.velocity + on * (v_[i] - chord.velocity); });
+  const Motion& goal = goal_[group];
+  // The chord of implicit Euler has the right mean by now.
+  const Vec3 missed = config_.solver.stepper == Stepper::bdf2 ? Vec3(goal.velocity - found.velocity)
+                                                              : Vec3(Vec3::Zero());
+  forEachNodeOf(group, [&](Index i, std::size_t tissue) {
+    const Vec3 v = v_[i] - found.velocity;
+    v_[i] = found.velocity + missed + (formula_[tissue].carried > 0.0 ? v : on * v);
+    acceleration_[i] += missed / formula_[tissue].effective_s;
+  });
   const Motion turned = motionOf(group, x_);
-  const Vec3 missing = angularVelocity(turned.inertia, spin_[group] - turned.spin);
-  forEachNodeOf(group, [&](Index i) { v_[i] += missing.cross(x_[i] - turned.centre); });
+  const Vec3 missing = angularVelocity(turned.inertia, goal.spin - turned.spin);
+  forEachNodeOf(group,
+                [&](Index i, std::size_t) { v_[i] += missing.cross(x_[i] - turned.centre); });
 }
 
 }  // namespace soft_tissue

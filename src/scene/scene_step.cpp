@@ -10,8 +10,6 @@ namespace soft_tissue
 {
 namespace
 {
-/** A minimisation that stops with more of the forces unbalanced has failed: the step is halved. */
-constexpr double kFailedResidual = 0.05;
 /** How often contact that is too deep is made stiffer within a step. */
 constexpr int kMostStiffenings = 12;
 }  // namespace
@@ -32,17 +30,24 @@ const StepReport& Scene::Impl::step()
 {
   step_timer_.restart();
   const std::uint64_t number = report_.step + 1;
-  const bool tools_went_alone = report_.held;  // their way back is none through tissue
+  was_held_ = report_.held;
   const double start_s = report_.time_s;
   aimTools();
+  wakeUp();
   easeDeepStarts();
   report_ = StepReport();
   report_.step = number;
   report_.time_s = start_s;
-  report_.parts = tools_went_alone ? 1 : partsOfStep();
+  report_.parts = was_held_ ? 1 : partsOfStep();  // the way back of tools is none through tissue
+  report_.converged = true;
   before_step_ = x_;
   forTets([](TissueElasticity& tets) { tets.save(); });
-  for (int part = 0; part < report_.parts && !report_.held; ++part)
+  for (Tissue& tissue : tissues_)
+  {
+    tissue.evaluations = 0;
+  }
+  const bool any_awake = sleepers() < tissues_.size();
+  for (int part = 0; any_awake && part < report_.parts && !report_.held; ++part)
   {
     const double from = static_cast<double>(part) / report_.parts;
     const double to = static_cast<double>(part + 1) / report_.parts;
@@ -51,9 +56,12 @@ const StepReport& Scene::Impl::step()
       x_ = before_step_;
       forTets([](TissueElasticity& tets) { tets.restore(); });
       stop();
+      forgetPast();
       report_.held = true;
     }
   }
+  report_.sleeping = static_cast<int>(sleepers());
+  fallAsleep();
   report_.time_s = start_s + config_.time_step_s;
   const Timer finish;
   finishStep();
@@ -93,25 +101,31 @@ bool Scene::Impl::advance(double from, double to, int depth)
   return advance(from, middle, depth + 1) && advance(middle, to, depth + 1);
 }
 
-/** One minimisation of the potential over the part [from, to] of the step. */
+/** One minimisation of the potential over the part [from, to] of the step; another one where a blow
+ * turns out to need another formula. */
 bool Scene::Impl::minimise(double from, double to)
 {
   const double h = (to - from) * config_.time_step_s;
-  const bool dynamic = config_.solver.stepper == Stepper::implicit_euler;
   terms_.clear();
   terms_.push_back(gravity_.get());
-  if (dynamic)
+  before_ = x_;
+  if (isDynamic())
   {
-    inertia_->beginStep(x_, v_, h);
+    chooseFormulas(h);
+    beginInertia();
     terms_.push_back(inertia_.get());
     if (drag_ != nullptr)
     {
-      drag_->beginStep(x_, h);
       terms_.push_back(drag_.get());
     }
   }
-  for (const Tissue& tissue : tissues_)
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
+    Tissue& tissue = tissues_[k];
+    if (asleep_[k] != 0)
+    {
+      continue;
+    }
     if (tissue.tets != nullptr)
     {
       tissue.tets->beginStep(x_, h);
@@ -123,43 +137,45 @@ bool Scene::Impl::minimise(double from, double to)
     }
   }
   const std::size_t first_contact = terms_.size();
-  before_ = x_;
-  extrapolate(h, report_.time_s + to * config_.time_step_s);
+  extrapolate(report_.time_s + to * config_.time_step_s);
   beginContacts(from, to);
   term_seconds_.assign(terms_.size(), 0.0);
-  if (h != last_h_)  // other second derivatives of inertia
+  NewtonReport newton = findBalance();
+  bool unfinished = false;
+  if (config_.solver.stepper == Stepper::bdf2)
   {
-    newton_->forgetMatrix();
-    last_h_ = h;
-  }
-  if (dynamic)
-  {
-    x_ = inertia_->target();
-    newton_->restoreFixed(extrapolated_, x_);
-  }
-  else
-  {
-    x_ = extrapolated_;
-  }
-  NewtonReport newton = findBalance(dynamic ? &extrapolated_ : nullptr);
-  for (int k = 0; k < kMostStiffenings && newton.converged && stiffenWhereTooDeep(); ++k)
-  {
-    newton = findBalance(nullptr);
+    std::fill(smooth_.begin(), smooth_.end(), 1);
+    while (newton.finite && !unfinished && findBlows())
+    {
+      dropThePast(h);
+      unfinished = timeLeft() <= 0.0;
+      if (!unfinished)
+      {
+        extrapolate(report_.time_s + to * config_.time_step_s);
+        newton = findBalance();
+      }
+    }
   }
   for (std::size_t k = 0; k < first_contact; ++k)
   {
     report_.ms.fem += 1e3 * term_seconds_[k];
   }
   const double failed = std::max(kFailedResidual, config_.solver.tolerance);
-  if (!newton.finite || !(newton.converged || newton.out_of_time || newton.residual <= failed))
+  // Where no time is left, halves of the step would only make it later.
+  const bool far = !newton.converged && newton.residual > failed;
+  unfinished |= far && (newton.out_of_time || timeLeft() <= 0.0);
+  report_.out_of_time |= unfinished;
+  unfinished |= far && was_held_;  // to be held again would not bring it on
+  if (!newton.finite || (far && !unfinished))
   {
+    std::fill(smooth_.begin(), smooth_.end(), 0);
     return false;
   }
-  if (newton.out_of_time && newton.residual > failed)
+  if (unfinished)
   {
-    standStillIfBetter(newton.value);
+    standStillIfBetter(h);
   }
-  if (dynamic)
+  if (isDynamic())
   {
     takeVelocities(h);
   }
@@ -167,15 +183,43 @@ bool Scene::Impl::minimise(double from, double to)
   {
     stop();
   }
-  forTets([&](TissueElasticity& tets) { tets.endStep(x_); });
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
+  {
+    if (asleep_[k] == 0 && tissues_[k].tets != nullptr)
+    {
+      tissues_[k].tets->endStep(x_);
+    }
+  }
   return true;
 }
 
-/** Minimises what terms_ add up to, and reports how that went. */
-NewtonReport Scene::Impl::findBalance(Points* other)
+/** Minimises what terms_ add up to, from where nodes would go by themselves, and with contact as
+ * stiff as it has to be. */
+NewtonReport Scene::Impl::findBalance()
+{
+  x_ = extrapolated_;
+  if (isDynamic())
+  {
+    x_ = inertia_->target();
+    newton_->restoreFixed(extrapolated_, x_);
+  }
+  NewtonReport newton = descend(isDynamic() ? &extrapolated_ : nullptr);
+  for (int k = 0; k < kMostStiffenings && newton.converged && stiffenWhereTooDeep(); ++k)
+  {
+    newton = descend(nullptr);
+  }
+  return newton;
+}
+
+/** Minimises what terms_ add up to from x_ or another start, and reports how that went. */
+NewtonReport Scene::Impl::descend(Points* other)
 {
   newton_options_.budget_s = timeLeft();
   const NewtonReport newton = newton_->minimise(terms_, newton_options_, x_, term_seconds_, other);
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
+  {
+    tissues_[k].evaluations += asleep_[k] == 0 ? newton.evaluations : 0;
+  }
   report_.ms.solve += 1e3 * newton.linear_s;
   report_.newton_iterations += newton.iterations;
   report_.linear_iterations += newton.linear_iterations;
@@ -187,35 +231,21 @@ NewtonReport Scene::Impl::findBalance(Points* other)
 }
 
 /** A step left far from its end must not add energy: the potential there is at most that of a body
- * that stays where it was. */
-void Scene::Impl::standStillIfBetter(double potential)
+ * that stays where it was. That tells of energies where nothing of the past is carried on. */
+void Scene::Impl::standStillIfBetter(double h)
 {
-  double still = 0.0;
+  std::fill(smooth_.begin(), smooth_.end(), 0);
+  dropThePast(h);
+  double still = 0.0, moved = 0.0;
   for (EnergyTerm* term : terms_)
   {
     still += term->value(before_);
+    moved += term->value(x_);
   }
-  if (still < potential)
+  if (still < moved)
   {
     x_ = before_;
   }
-}
-
-/** Where nodes go if the last acceleration goes on: where a minimisation may start, beside where
- * they go if no force acts. */
-void Scene::Impl::extrapolate(double h, double end_s)
-{
-  extrapolated_ = x_;
-  if (config_.solver.stepper == Stepper::implicit_euler)
-  {
-    extrapolated_ = inertia_->target();
-    newton_->restoreFixed(x_, extrapolated_);
-    for (std::size_t i = 0; i < x_.size(); ++i)
-    {
-      extrapolated_[i] += h * h * acceleration_[i];
-    }
-  }
-  placeMovedNodes(end_s, extrapolated_);
 }
 
 /** Puts nodes that key frames move where they are at a time. */
@@ -248,9 +278,15 @@ void Scene::Impl::finishStep()
   collectContacts();
   const Timer timer;
   report_.min_det_f = config_.tissues.empty() ? 1.0 : 1e300;
-  forTets([&](TissueElasticity& tets) {
-    report_.min_det_f = std::min(report_.min_det_f, tets.minDetF(x_));
-  });
+  for (Tissue& tissue : tissues_)
+  {
+    if (tissue.tets != nullptr)
+    {
+      tissue.min_det_f =
+          tissue.evaluations > 0 || report_.held ? tissue.tets->minDetF(x_) : tissue.min_det_f;
+      report_.min_det_f = std::min(report_.min_det_f, tissue.min_det_f);
+    }
+  }
   report_.ms.fem += 1e3 * timer.seconds();
   for (const Contact& contact : contacts_)
   {

@@ -7,15 +7,44 @@ void checkScene(const Item& item, SceneConfig& scene);
 
 namespace
 {
+const Section<SleepConfig>& sleepSection()
+{
+  static const Section<SleepConfig> section =
+      Section<SleepConfig>(
+          "sleep",
+          "When tissues and membranes count as being at rest. Those that touch, or "
+          "nearly do, sleep together. They wake as soon as something awake comes "
+          "near, a tool near them moves, or key frames move their nodes.")
+          .optional("speed_m_per_s", &SleepConfig::speed_m_per_s,
+                    number(0.0, 1.0, Ends::open_below), "No node is faster.")
+          .optional("acceleration_m_per_s2", &SleepConfig::acceleration_m_per_s2,
+                    number(0.0, 1.0, Ends::open_below),
+                    "No node's velocity changes more quickly; far less than gravity, or bodies "
+                    "sleep at the top of their flight.")
+          .optional("after_s", &SleepConfig::after_s, number(0.0, 1000.0, Ends::closed),
+                    "For how long.");
+  return section;
+}
+
+void checkSolver(const Item& item, SolverConfig& solver)
+{
+  if (solver.sleep && solver.stepper == Stepper::quasi_static)
+  {
+    item.rejectKey("sleep", "must not stand with stepper quasi_static, which has no speeds");
+  }
+}
+
 const Section<SolverConfig>& solverSection()
 {
   static const Section<SolverConfig> section =
       Section<SolverConfig>("solver", "How a step is solved.")
-          .optional("stepper", &SolverConfig::stepper,
-                    choice<Stepper>({{"implicit_euler", Stepper::implicit_euler},
-                                     {"quasi_static", Stepper::quasi_static}},
-                                    {"bdf2"}),
-                    "implicit_euler: with inertia; quasi_static: equilibrium at each step.")
+          .optional(
+              "stepper", &SolverConfig::stepper,
+              choice<Stepper>({{"implicit_euler", Stepper::implicit_euler},
+                               {"bdf2", Stepper::bdf2},
+                               {"quasi_static", Stepper::quasi_static}}),
+              "implicit_euler: with inertia, of first order; bdf2: of second order, and hardly "
+              "damps what steps resolve; quasi_static: equilibrium at each step.")
           .optional("tolerance", &SolverConfig::tolerance, number(0.0, 0.1, Ends::open_below),
                     "Residual at which Newton's method stops, over the sum of the norms of the "
                     "acting forces.")
@@ -31,7 +60,10 @@ const Section<SolverConfig>& solverSection()
                     maybe(number(0.0, 1e6, Ends::open_below), "none", true),
                     "Wall time a step may take in sim_node: it then ends with the forces balanced "
                     "as far as time allowed, and says so in stats. run_scene ignores it: a replay "
-                    "must not depend on the machine's load. none: a step takes the time it needs.");
+                    "must not depend on the machine's load. none: a step takes the time it needs.")
+          .optional("sleep", &SolverConfig::sleep, maybe(mapOf(sleepSection()), "never", true),
+                    "When what is at rest is left out of steps, which then cost nothing.")
+          .finally(checkSolver);
   return section;
 }
 

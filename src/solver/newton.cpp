@@ -109,6 +109,7 @@ NewtonSolver::State NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms
                                            Points& gradient, std::vector<double>& seconds)
 {
   State state;
+  ++evaluations_;
   gradient.assign(x.size(), Vec3::Zero());
   term_gradient_.resize(x.size(), Vec3::Zero());
   double scale = 0.0;
@@ -137,6 +138,7 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
                             Curvature curvature, NewtonReport& report, std::vector<double>& seconds)
 {
   const Timer whole;
+  ++evaluations_;
   hessian_.setZero();
   for (std::size_t k = 0; k < terms.size(); ++k)
   {
@@ -282,6 +284,7 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
   NewtonReport report;
   timer_.restart();
   budget_s_ = options.budget_s;
+  evaluations_ = 0;
   const std::size_t n = x.size();
   descent_.resize(n);
   trial_.resize(n);
@@ -356,6 +359,7 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
     }
     directing_s_ = timer_.seconds() - begun_s - (anew ? assembly_s_ : 0.0);
   }
+  report.evaluations = evaluations_;
   report.value = state.value;
   report.residual = state.residual;
   report.position_error_m = reach_ * state.force;

@@ -32,6 +32,16 @@ class SpeedError(unittest.TestCase):
                                         os.path.join(folder, "error.png"))
             self.assertGreater(os.path.getsize(os.path.join(folder, "error.png")), 1000)
 
+    def test_stability(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "stability", "--out", folder, "--quick"], check=True,
+                           stdout=subprocess.DEVNULL)
+            with open(os.path.join(folder, "stability.csv")) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertGreaterEqual(len(rows), 4)
+            for row in rows:
+                self.assertEqual((row["finite"], row["ended_so"]), ("1", "1"), row)
+
     def test_contact(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "contact", "--out", folder, "--quick"], check=True, stdout=subprocess.DEVNULL)

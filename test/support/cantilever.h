@@ -18,18 +18,23 @@ namespace soft_tissue::test
 class Cantilever
 {
  public:
-  static constexpr double kLength = 0.2;    // m
-  static constexpr double kSlender = 20.0;  // length over thickness
-  static constexpr double kThick = kLength / kSlender;
-  static constexpr double kYoung = 1e4;                                                  // Pa
-  static constexpr double kDensity = 1000.0;                                             // kg/m^3
-  static constexpr double kBending = kYoung * kThick * kThick * kThick * kThick / 12.0;  // EI
+  static constexpr double kLength = 0.2;      // m
+  static constexpr double kSlender = 20.0;    // length over thickness, unless asked for
+  static constexpr double kYoung = 1e4;       // Pa
+  static constexpr double kDensity = 1000.0;  // kg/m^3
 
   /** Cubes of a `cells`-th of the thickness along and across the beam, one over its width: what
    * does not change along y does not need more. */
   Cantilever(MaterialModel model, int cells, ElementKind kind = ElementKind::tet4)
-      : cells_{static_cast<int>(kSlender) * cells, 1, cells},
-        rest_(makeBox(cells_, {kLength, kThick, kThick}))
+      : Cantilever(model, {static_cast<int>(kSlender) * cells, 1, cells}, kSlender, kind)
+  {}
+
+  /** Cells along the beam, over its width and over its thickness. */
+  Cantilever(MaterialModel model, const std::array<int, 3>& cells, double slender, ElementKind kind)
+      : thick_(kLength / slender),
+        bending_(kYoung * thick_ * thick_ * thick_ * thick_ / 12.0),
+        cells_(cells),
+        rest_(makeBox(cells_, {kLength, thick_, thick_}))
   {
     const TetMesh box = rest_;
     const std::vector<TetStiffnessParameters> stiffness(box.tets.size(), {kYoung, 0.0});
@@ -87,7 +92,7 @@ class Cantilever
         }
         for (const Index node : t)
         {
-          end_share_[node] += area.norm() / (3.0 * kThick * kThick);
+          end_share_[node] += area.norm() / (3.0 * thick_ * thick_);
         }
       }
     }
@@ -100,15 +105,15 @@ class Cantilever
   /** The beam at rest under these loads (stretch and shear are its own); x: start and solution. */
   NewtonReport bend(const BeamLoad& load, Points& x)
   {
-    const double tip_force = load.tip * kBending / (kLength * kLength);
+    const double tip_force = load.tip * bending_ / (kLength * kLength);
     Points forces;
     for (const double share : end_share_)
     {
       forces.emplace_back(0.0, 0.0, -share * tip_force);
     }
     NodalLoads pull(forces);
-    const double weight = load.weight * kBending / (kLength * kLength * kLength);
-    Gravity gravity(masses_, {0.0, 0.0, -weight / (kDensity * kThick * kThick)});
+    const double weight = load.weight * bending_ / (kLength * kLength * kLength);
+    Gravity gravity(masses_, {0.0, 0.0, -weight / (kDensity * thick_ * thick_)});
     const std::vector<EnergyTerm*> terms = {elasticity_.get(), &pull, &gravity};
     NewtonOptions options;
     options.tolerance = 1e-7;
@@ -157,6 +162,8 @@ class Cantilever
     return static_cast<Index>((k * (cells_[1] + 1) + j) * (cells_[0] + 1) + i);
   }
 
+  double thick_;    ///< m
+  double bending_;  ///< EI
   std::array<int, 3> cells_;
   TetMesh rest_;  ///< quadratic tets cut into linear ones
   std::size_t elements_ = 0;

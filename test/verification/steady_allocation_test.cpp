@@ -126,7 +126,7 @@ SceneConfig rubbedLobe()
   return config;
 }
 
-class SteadyAllocation : public testing::TestWithParam<std::tuple<int, ElementKind, bool>>
+class SteadyAllocation : public testing::TestWithParam<std::tuple<int, ElementKind, bool, Stepper>>
 {
  protected:
   void SetUp() override { setThreadCount(std::get<0>(GetParam())); }
@@ -145,6 +145,7 @@ TEST_P(SteadyAllocation, aStepInContactAllocatesNothing)
     material.relaxation = {{0.5, 0.02}, {0.3, 1.0}};
     config.solver.tolerance = 1e-6;  // such smooth motion needs no iterations otherwise
   }
+  config.solver.stepper = std::get<3>(GetParam());
   Scene scene(config);
   const double warm_s = (kWarmUpPeriods + 0.5) * kPeriod;
   const double end_s = warm_s + kCountedPeriods * kPeriod;
@@ -164,10 +165,28 @@ TEST_P(SteadyAllocation, aStepInContactAllocatesNothing)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(ThreadsElementsViscosity, SteadyAllocation,
+INSTANTIATE_TEST_SUITE_P(AllKinds, SteadyAllocation,
                          testing::Combine(testing::Values(1, 2),
                                           testing::Values(ElementKind::tet4, ElementKind::tet10),
-                                          testing::Bool()));
+                                          testing::Bool(),
+                                          testing::Values(Stepper::implicit_euler, Stepper::bdf2)));
+
+TEST(SteadyAllocation, aStepThatSleepsAllocatesNothing)
+{
+  SceneConfig config = rubbedLobe();
+  config.solver.sleep = SleepConfig{1e-3, 0.1, 0.0};
+  config.tools.at(0).pose_source.keyframes.resize(1);
+  Scene scene(config);
+  while (scene.step().sleeping == 0)
+  {
+    ASSERT_LT(scene.time(), 10.0) << "never at rest";
+  }
+  Snapshot snapshot;
+  scene.step();
+  scene.fillSnapshot(snapshot);
+  EXPECT_EQ(allocationsOf([&] { scene.step(); }), 0) << firstCaller();
+  EXPECT_EQ(scene.step().sleeping, 1);
+}
 
 TEST(AllocationCounter, seesEveryKind)
 {

@@ -30,46 +30,102 @@ void addLumpedMasses(const QuadraticTetMesh& rest, const std::vector<double>& de
 void addLoadMasses(const QuadraticTetMesh& rest, const std::vector<double>& densities,
                    Index first_node, std::vector<double>& masses);
 
-/** 1/(2 h^2) |x - target|^2 in the lumped mass: what makes implicit Euler a minimisation. */
-class Inertia : public EnergyTerm
+/**
+ * How a step ends: x = x' + s v and v = v' + s a, where s is the effective step, a the acceleration
+ * at its end, x' = x0 + c (x0 - x1) and v' = v0 + c (v0 - v1); 0 is where the step starts, 1 where
+ * the last one did, c the share of its change that is carried on.
+ */
+struct StepFormula
+{
+  double effective_s = 0.0;
+  double carried = 0.0;
+
+  /** First order, needs nothing of the last step. */
+  static StepFormula implicitEuler(double step_s) { return {step_s, 0.0}; }
+  /** Second order, for steps of any ratio; both have the same formula for x and v.
+   * Source: [Hairer1993] section III.5 */
+  static StepFormula bdf2(double step_s, double last_step_s);
+};
+
+/** Positions and velocities of all nodes where a step starts and where the last one did, N x 3
+ * each, m and m/s. */
+struct StepStart
+{
+  const Points &x, &v, &x_last, &v_last;
+
+  /** x' and v' of StepFormula. */
+  Vec3 position(std::size_t i, const StepFormula& formula) const
+  {
+    return x[i] + formula.carried * (x[i] - x_last[i]);
+  }
+  Vec3 velocity(std::size_t i, const StepFormula& formula) const
+  {
+    return v[i] + formula.carried * (v[i] - v_last[i]);
+  }
+};
+
+/** Nodes begin to end - 1. */
+struct NodeRange
+{
+  Index begin = 0, end = 0;
+};
+
+/** 1/2 sum k |x - p|^2: each node is drawn to a place of its own. */
+class NodalSprings : public EnergyTerm
+{
+ public:
+  /** Counts these nodes alone, by ascending ranges; at first all. */
+  void setNodes(const std::vector<NodeRange>& nodes) { nodes_ = nodes; }
+
+  double value(const Points& x) override;
+  void addGradient(const Points& x, Points& gradient) override;
+  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
+
+ protected:
+  explicit NodalSprings(std::size_t count)
+      : places_(count, Vec3::Zero()), stiffness_(count, 0.0), nodes_{{0, static_cast<Index>(count)}}
+  {}
+
+  Points places_;                  ///< p, m
+  std::vector<double> stiffness_;  ///< k, N/m
+
+ private:
+  std::vector<NodeRange> nodes_;
+};
+
+/** 1/(2 s^2) |x - target|^2 in the lumped mass, target = x' + s v': what makes a step of
+ * StepFormula a minimisation. */
+class Inertia : public NodalSprings
 {
  public:
   /** @param masses N, kg; must outlive the term */
-  explicit Inertia(const std::vector<double>& masses) : masses_(masses) {}
+  explicit Inertia(const std::vector<double>& masses) : NodalSprings(masses.size()), masses_(masses)
+  {}
 
-  /** Target positions x + h v (N x 3, m) and h (s) of the step that begins. */
-  void beginStep(const Points& x, const Points& velocities, double step);
+  /** Begins a step of nodes first to first + count - 1.
+   * @return whether their second derivative is another than in the last step */
+  bool beginStep(Index first, Index count, const StepStart& start, const StepFormula& formula);
 
-  const Points& target() const { return target_; }
-
-  double value(const Points& x) override;
-  void addGradient(const Points& x, Points& gradient) override;
-  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
+  const Points& target() const { return places_; }
 
  private:
   const std::vector<double>& masses_;
-  Points target_;
-  double inverse_square_step_ = 0.0;
 };
 
-/** 1/(2 h) sum c |x - x_0|^2: a force -c v against each node's velocity. */
-class Drag : public EnergyTerm
+/** 1/(2 s) sum c |x - x'|^2: a force -c v against each node's velocity. */
+class Drag : public NodalSprings
 {
  public:
   /** @param coefficients N, kg/s; must outlive the term */
-  explicit Drag(const std::vector<double>& coefficients) : coefficients_(coefficients) {}
+  explicit Drag(const std::vector<double>& coefficients)
+      : NodalSprings(coefficients.size()), coefficients_(coefficients)
+  {}
 
-  /** Positions at the start of the step that begins (N x 3, m), and h (s). */
-  void beginStep(const Points& x, double step);
-
-  double value(const Points& x) override;
-  void addGradient(const Points& x, Points& gradient) override;
-  void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
+  /** Begins a step of nodes first to first + count - 1. */
+  void beginStep(Index first, Index count, const StepStart& start, const StepFormula& formula);
 
  private:
   const std::vector<double>& coefficients_;
-  Points start_;
-  double inverse_step_ = 0.0;
 };
 
 /** -sum m g . x. */
@@ -79,8 +135,11 @@ class Gravity : public EnergyTerm
   /** @param masses N, kg, lumped or addLoadMasses(); must outlive the term
    * @param acceleration m/s^2, world */
   Gravity(const std::vector<double>& masses, const Vec3& acceleration)
-      : masses_(masses), acceleration_(acceleration)
+      : masses_(masses), acceleration_(acceleration), nodes_{{0, static_cast<Index>(masses.size())}}
   {}
+
+  /** Counts these nodes alone, by ascending ranges; at first all. */
+  void setNodes(const std::vector<NodeRange>& nodes) { nodes_ = nodes; }
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
@@ -89,6 +148,7 @@ class Gravity : public EnergyTerm
  private:
   const std::vector<double>& masses_;
   Vec3 acceleration_;
+  std::vector<NodeRange> nodes_;
 };
 
 /** Dead loads: -sum f . x, f constant in the world. */

@@ -106,7 +106,6 @@ struct SoftBodyConfig
 {
   std::string name;
   MeshConfig mesh;
-  ElementKind element = ElementKind::tet4;
   PoseConfig pose;
   Vec3 velocity_m_per_s = Vec3::Zero();  ///< it starts with, world
   MaterialConfig material;
@@ -238,7 +237,16 @@ struct ContactConfig
 enum class Stepper
 {
   implicit_euler,
+  bdf2,
   quasi_static,
+};
+
+/** When tissues are at rest: then they are left out until something comes near. */
+struct SleepConfig
+{
+  double speed_m_per_s = 1e-3;         ///< no node is faster
+  double acceleration_m_per_s2 = 0.1;  ///< nor gets faster more quickly
+  double after_s = 0.5;                ///< for so long
 };
 
 struct SolverConfig
@@ -250,6 +258,7 @@ struct SolverConfig
   /** Wall time a step may take; empty: as long as it needs. With one, steps depend on the machine
    * and its load. */
   std::optional<double> budget_ms;
+  std::optional<SleepConfig> sleep;  ///< empty: never
 };
 
 struct OutputsConfig

@@ -41,6 +41,7 @@ struct StepReport
   double min_det_f = 1.0;
   double max_penetration_m = 0.0;
   int contacts = 0;
+  int sleeping = 0;  ///< tissues and membranes that were left out, see SolverConfig::sleep
   StageTimes ms;
 };
 
@@ -88,6 +89,8 @@ struct TissueState
   Points positions;              ///< N, world, m
   Points velocities;             ///< N, world, m/s
   std::vector<float> von_mises;  ///< M, Pa; empty unless the scene asks for stress
+  bool asleep = false;           ///< from the end of this step on
+  int evaluations = 0;           ///< of its elastic energy, forces or stiffness in this step
 };
 
 struct ToolState
@@ -179,8 +182,8 @@ class Scene
    */
   void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
 
-  /** Hash of every bit of the dynamic state: positions, velocities, accelerations, what viscous
-   * tissue remembers, tool poses, step count. */
+  /** Hash of every bit of the dynamic state: positions, velocities, accelerations, what the stepper
+   * carries on and viscous tissue remembers, who sleeps, tool poses, step count. */
   std::uint64_t stateHash() const;
 
   /** Copies the state out, reusing the memory `snapshot` already has. */

@@ -36,6 +36,7 @@ struct NewtonReport
 {
   int iterations = 0;
   int linear_iterations = 0;
+  int evaluations = 0;    ///< of energy and forces, or second derivatives, of all terms
   double residual = 0.0;  ///< relative, as in NewtonOptions::tolerance
   bool converged = false;
   bool out_of_time = false;  ///< stopped for NewtonOptions::budget_s
@@ -118,6 +119,7 @@ class NewtonSolver
 
   // What things took when last done, s, and the time they have to fit in.
   Timer timer_;
+  int evaluations_ = 0;
   double budget_s_ = 0.0;
   double evaluation_s_ = 0.0, assembly_s_ = 0.0, linear_iteration_s_ = 0.0;
   double directing_s_ = 0.0;  ///< direction and step, without second derivatives

@@ -111,6 +111,25 @@ TEST_F(ConfigTest, SolverAndOutputsArrive)
   EXPECT_TRUE(scene.outputs.stress);
 }
 
+TEST_F(ConfigTest, LimitsOfSleepArrive)
+{
+  const std::string plain = "solver: {stepper: quasi_static, ";
+  const auto loaded = [&](const std::string& solver) {
+    std::string text = kFullest;
+    text.replace(text.find(plain), plain.size(), "solver: {" + solver);
+    return load(text).solver;
+  };
+  const SolverConfig solver =
+      loaded("stepper: bdf2, sleep: {speed_m_per_s: 2e-3, acceleration_m_per_s2: 0.2}, ");
+  EXPECT_EQ(solver.stepper, Stepper::bdf2);
+  ASSERT_TRUE(solver.sleep.has_value());
+  EXPECT_EQ(solver.sleep->speed_m_per_s, 2e-3);
+  EXPECT_EQ(solver.sleep->acceleration_m_per_s2, 0.2);
+  EXPECT_EQ(solver.sleep->after_s, SleepConfig().after_s);
+  EXPECT_FALSE(loaded("sleep: never, ").sleep.has_value());
+  EXPECT_FALSE(load(kFullest).solver.sleep.has_value());
+}
+
 TEST_F(ConfigTest, TissuesArrive)
 {
   const SceneConfig scene = load(kFullest);

@@ -51,7 +51,8 @@ class FailedStep : public ::testing::TestWithParam<Stepper>
 };
 
 INSTANTIATE_TEST_SUITE_P(All, FailedStep,
-                         ::testing::Values(Stepper::implicit_euler, Stepper::quasi_static));
+                         ::testing::Values(Stepper::implicit_euler, Stepper::bdf2,
+                                           Stepper::quasi_static));
 
 TEST_P(FailedStep, HoldsTheLastGoodStateAndSaysSo)
 {

@@ -75,7 +75,7 @@ TEST_P(FreeTissue, WithoutGravityStaysWhereItIs)
 
 TEST_P(FreeTissue, WithoutGravityStaysWhereItIsWhenFixedToo)
 {
-  for (const Stepper stepper : {Stepper::implicit_euler, Stepper::quasi_static})
+  for (const Stepper stepper : {Stepper::implicit_euler, Stepper::bdf2, Stepper::quasi_static})
   {
     SceneConfig config = this->config(1e-3);
     config.solver.stepper = stepper;

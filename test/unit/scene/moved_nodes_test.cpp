@@ -36,7 +36,8 @@ class MovedNodes : public testing::TestWithParam<Stepper>
 };
 
 INSTANTIATE_TEST_SUITE_P(Steppers, MovedNodes,
-                         testing::Values(Stepper::implicit_euler, Stepper::quasi_static));
+                         testing::Values(Stepper::implicit_euler, Stepper::bdf2,
+                                         Stepper::quasi_static));
 
 TEST_P(MovedNodes, GoWithTheirFrameAndTakeOthersAlong)
 {
