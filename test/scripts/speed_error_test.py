@@ -60,6 +60,21 @@ class SpeedError(unittest.TestCase):
             for row in rows:
                 self.assertEqual(int(row["samples"]) > 0, row["case"] == "overlapping", row)
 
+    def test_fem(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "fem", "--out", folder, "--quick"], check=True, stdout=subprocess.DEVNULL)
+            with open(os.path.join(folder, "fem_race.csv")) as stream:
+                rows = {(row["method"], row["threads"]): row for row in csv.DictReader(stream)}
+            self.assertLess(float(rows["converged", "2"]["worst_residual"]), 1e-8)
+            self.assertEqual(float(rows["scene", "2"]["tip_off_scene_mm"]), 0.0)
+            for method, tolerance in (("scene", 1e-3), ("scene 1e-2", 1e-2), ("scene 1e-1", 1e-1),
+                                      ("plain newton", 1e-3)):
+                row = rows[method, "1"]
+                self.assertLess(float(row["worst_residual"]), 1.001 * tolerance, row)
+            # Two programs that share nothing but the law go the same way.
+            self.assertLess(float(rows["plain newton", "1"]["tip_off_converged_mm"]), 0.01)
+            self.assertGreater(float(rows["plain", "1"]["worst_residual"]), 0.01)
+
     def test_bad_calls(self):
         for arguments in ([], ["field"], ["magic", "--out", "x"], ["field", "--out"]):
             result = subprocess.run([PROGRAM] + arguments, stderr=subprocess.PIPE, check=False)

@@ -1,0 +1,12 @@
+#include "fem_study.h"
+
+#include "fem_race.h"
+
+namespace soft_tissue::studies
+{
+void studyFem(const std::string& folder, bool quick)
+{
+  raceFem(folder, quick);
+}
+
+}  // namespace soft_tissue::studies
