@@ -1,7 +1,5 @@
 #include "fem_race.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <deque>
@@ -14,6 +12,7 @@
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/scene/scene.h"
+#include "timing.h"
 
 namespace soft_tissue::studies
 {
@@ -21,14 +20,6 @@ namespace
 {
 constexpr int kMostLinearisations = 20;
 constexpr double kConverged = 1e-8;
-
-/** Time this thread has had, s: without what other programs took from it. */
-double threadSeconds()
-{
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Way
 {
@@ -118,12 +109,6 @@ class Runner
   std::optional<Scene> scene_;
   Snapshot snapshot_;
 };
-
-double median(std::vector<double> values)
-{
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
 
 double farthest(const Points& a, const Points& b)
 {

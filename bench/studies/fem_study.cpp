@@ -1,5 +1,6 @@
 #include "fem_study.h"
 
+#include "fem_error.h"
 #include "fem_race.h"
 
 namespace soft_tissue::studies
@@ -7,6 +8,7 @@ namespace soft_tissue::studies
 void studyFem(const std::string& folder, bool quick)
 {
   raceFem(folder, quick);
+  studyFemError(folder, quick);
 }
 
 }  // namespace soft_tissue::studies

@@ -5,7 +5,7 @@
 namespace soft_tissue::studies
 {
 /**
- * The step without contact: beside a plain one, DIR/fem_race.csv.
+ * The step without contact: beside a plain one, DIR/fem_race.csv; speed against error, DIR/fem.csv.
  * @param quick  small bodies only, few steps
  * @throws Error if a file can't be written
  */

@@ -22,10 +22,10 @@ struct BeamSetup
 };
 
 /**
- * A mesh of about so many thousand tets: beams/beam1k.msh and so on below $SOFT_TISSUE_DATA, or,
- * without it, a box of cells.
+ * A mesh of about so many thousand tets: for 1, 5 and 20 beams/beam1k.msh and so on below
+ * $SOFT_TISSUE_DATA; else, and without it, a box of cells.
  * @param folder     where a box is written
- * @param thousands  1, 5, 20; 0: a box of 240 tets, whatever the environment
+ * @param thousands  0: a box of 240 tets
  * @return the file
  * @throws Error if a box can't be written
  */
