@@ -1,5 +1,6 @@
 #include "fem_study.h"
 
+#include "fem_bullet.h"
 #include "fem_error.h"
 #include "fem_race.h"
 
@@ -8,6 +9,7 @@ namespace soft_tissue::studies
 void studyFem(const std::string& folder, bool quick)
 {
   raceFem(folder, quick);
+  raceBullet(folder, quick);
   studyFemError(folder, quick);
 }
 

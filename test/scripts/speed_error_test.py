@@ -75,6 +75,14 @@ class SpeedError(unittest.TestCase):
             self.assertLess(float(rows["plain newton", "1"]["tip_off_converged_mm"]), 0.01)
             self.assertGreater(float(rows["plain", "1"]["worst_residual"]), 0.01)
 
+            with open(os.path.join(folder, "fem_bullet.csv")) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertLessEqual({"scene", "converged"}, {row["engine"] for row in rows})
+            for row in rows:  # falls freely yet, five steps of 10 ms: 15 g h^2
+                fall = -1.5 * float(row["gravity"])
+                self.assertAlmostEqual(float(row["tip_y_mm"]), fall, delta=-0.1 * fall, msg=row)
+                self.assertLess(float(row["farthest_off_mm"]), 0.1, row)
+
             with open(os.path.join(folder, "fem.csv")) as stream:
                 rows = list(csv.DictReader(stream))
             self.assertEqual(list(rows[0]), ["case", "method", "element", "law", "linear", "tolerance", "tets", "nodes",
