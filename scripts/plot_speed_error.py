@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Draws what speed_error measured: error against time, and time against size.
 
-    plot_speed_error.py DIR    DIR/field.csv becomes DIR/field_error.png and DIR/field_scaling.png
+    plot_speed_error.py DIR    DIR/field.csv becomes DIR/field_error.png and DIR/field_scaling.png,
+                               DIR/fem.csv DIR/fem_<case>.png
 
-Squares are grids of the second order, numbers their points along an axis.
+Fields: squares are grids of the second order, numbers their points along an axis. FEM: numbers are nodes, lines join
+what no other way beats in both, stars are the defaults of a scene file.
 """
 import csv
 import os
@@ -80,13 +82,61 @@ def plot_scaling(rows, path):
     figure.savefig(path, dpi=120)
 
 
+def read_fem(path):
+    with open(path) as stream:
+        rows = list(csv.DictReader(stream))
+    for row in rows:
+        for key in ("ms", "error"):
+            row[key] = float(row[key])
+    return rows
+
+
+def plot_fem(rows, case, path):
+    of_case = [row for row in rows if row["case"] == case]
+    figure, axis = plt.subplots(figsize=(7, 5))
+    kinds = {}
+    for row in of_case:
+        name = row["method"] if row["method"] != "scene" else " ".join([row["element"], row["law"], row["linear"]])
+        kinds.setdefault(name, []).append(row)
+    for number, (name, line) in enumerate(kinds.items()):
+        colour = plt.cm.tab20(number % 20)
+        axis.loglog([row["ms"] for row in line], [max(row["error"], ROUNDING) for row in line],
+                    "o" if line[0]["element"] == "tet4" else "s", color=colour, label=name)
+    for row in of_case:
+        axis.annotate(row["nodes"], (row["ms"], max(row["error"], ROUNDING)), fontsize=6)
+        if row["default"] == "1":
+            axis.loglog(row["ms"], max(row["error"], ROUNDING), "*", markersize=13, color="none",
+                        markeredgecolor="black")
+    front = sorted((row["ms"], max(row["error"], ROUNDING)) for row in of_case if row["pareto"] == "1")
+    axis.loglog([ms for ms, _ in front], [error for _, error in front], "-", color="grey", linewidth=0.8)
+    axis.set_title(case)
+    axis.set_xlabel("ms of one thread, " + ("a simulated second" if case in ("heavy", "fall") else "a solve"))
+    axis.set_ylabel("relative error")
+    axis.legend(fontsize=6)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def plot_all_fem(folder):
+    rows = read_fem(os.path.join(folder, "fem.csv"))
+    for case in dict.fromkeys(row["case"] for row in rows):
+        plot_fem(rows, case, os.path.join(folder, "fem_%s.png" % case.replace(" ", "_").replace("/", "_")))
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = sys.argv[1]
-    rows = read(os.path.join(folder, "field.csv"))
-    plot_error(rows, os.path.join(folder, "field_error.png"))
-    plot_scaling(rows, os.path.join(folder, "field_scaling.png"))
+    there = [name for name in ("field.csv", "fem.csv") if os.path.exists(os.path.join(folder, name))]
+    if not there:
+        sys.exit("%s: neither field.csv nor fem.csv is there" % folder)
+    if "field.csv" in there:
+        rows = read(os.path.join(folder, "field.csv"))
+        plot_error(rows, os.path.join(folder, "field_error.png"))
+        plot_scaling(rows, os.path.join(folder, "field_scaling.png"))
+    if "fem.csv" in there:
+        plot_all_fem(folder)
 
 
 if __name__ == "__main__":

@@ -6,18 +6,22 @@
 #include <string>
 
 #include "contact_study.h"
+#include "fem_study.h"
 #include "field_study.h"
 #include "stability_study.h"
 
 namespace
 {
 constexpr const char* kUsage =
-    "usage: speed_error field|contact|stability --out DIR [--quick]\n"
+    "usage: speed_error field|contact|fem|stability --out DIR [--quick]\n"
     "  field    distance fields: DIR/field.csv; rosrun soft_tissue_sim plot_speed_error.py DIR\n"
     "           draws it\n"
     "  contact  forces on tools against contact mechanics: DIR/contact.csv; finding who touches\n"
     "           whom: DIR/detection.csv\n"
-    "  stability  hard cases: DIR/stability.csv\n"
+    "  fem      the step without contact beside a plain one: DIR/fem_race.csv; beside\n"
+    "           Bullet: DIR/fem_bullet.csv; speed against error of elements, laws and solvers:\n"
+    "           DIR/fem.csv\n"
+    "  stability  hard cases, how each ends: DIR/stability.csv\n"
     "  --quick  small bodies only, each timed once\n";
 
 using Study = void (*)(const std::string& folder, bool quick);
@@ -26,6 +30,7 @@ Study studyNamed(const std::string& name)
 {
   return name == "field"       ? soft_tissue::studies::studyFields
          : name == "contact"   ? soft_tissue::studies::studyContact
+         : name == "fem"       ? soft_tissue::studies::studyFem
          : name == "stability" ? soft_tissue::studies::studyStability
                                : nullptr;
 }

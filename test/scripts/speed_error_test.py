@@ -70,6 +70,61 @@ class SpeedError(unittest.TestCase):
             for row in rows:
                 self.assertEqual(int(row["samples"]) > 0, row["case"] == "overlapping", row)
 
+    def test_fem(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "fem", "--out", folder, "--quick"], check=True, stdout=subprocess.DEVNULL)
+            with open(os.path.join(folder, "fem_race.csv")) as stream:
+                rows = {(row["method"], row["threads"]): row for row in csv.DictReader(stream)}
+            self.assertLess(float(rows["converged", "2"]["worst_residual"]), 1e-8)
+            self.assertEqual(float(rows["scene", "2"]["tip_off_scene_mm"]), 0.0)
+            for method, tolerance in (("scene", 1e-3), ("scene 1e-2", 1e-2), ("scene 1e-1", 1e-1),
+                                      ("plain newton", 1e-3)):
+                row = rows[method, "1"]
+                self.assertLess(float(row["worst_residual"]), 1.001 * tolerance, row)
+            # Two programs that share nothing but the law go the same way.
+            self.assertLess(float(rows["plain newton", "1"]["tip_off_converged_mm"]), 0.01)
+            self.assertGreater(float(rows["plain", "1"]["worst_residual"]), 0.01)
+
+            with open(os.path.join(folder, "fem_bullet.csv")) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertLessEqual({"scene", "converged"}, {row["engine"] for row in rows})
+            for row in rows:  # falls freely yet, five steps of 10 ms: 15 g h^2
+                fall = -1.5 * float(row["gravity"])
+                self.assertAlmostEqual(float(row["tip_y_mm"]), fall, delta=-0.1 * fall, msg=row)
+                self.assertLess(float(row["farthest_off_mm"]), 0.1, row)
+
+            with open(os.path.join(folder, "fem.csv")) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual(list(rows[0]), ["case", "method", "element", "law", "linear", "tolerance", "tets", "nodes",
+                                             "ms", "found", "error", "converged", "pareto", "default"])
+            self.assertEqual({row["converged"] for row in rows}, {"1"})
+            for case in {row["case"] for row in rows}:
+                of_case = [row for row in rows if row["case"] == case]
+                self.assertIn("1", {row["default"] for row in of_case})
+                fastest = min(of_case, key=lambda row: float(row["ms"]))
+                self.assertEqual(fastest["pareto"], "1")
+                if case == "heavy":
+                    continue
+                error = {element: min(float(row["error"]) for row in of_case if row["element"] == element)
+                         for element in ("tet4", "tet10")}
+                self.assertLess(error["tet10"], 0.5 * error["tet4"], case)
+            # What the solvers differ by is where they stop.
+            found = {}
+            for row in rows:
+                if row["method"] == "scene" and row["tolerance"] == "0.001":
+                    found.setdefault((row["case"], row["element"], row["law"], row["nodes"]), []).append(
+                        float(row["found"]))
+            for key, ways in found.items():
+                self.assertLess(max(ways) / min(ways), 1.003, key)
+            # Less exact steps end farther off.
+            for law in ("neo_hookean", "corotated"):
+                errors = [float(row["error"]) for row in rows if row["case"] == "heavy" and row["method"] == "scene"
+                          and row["law"] == law and row["linear"] == "pcg"]
+                self.assertEqual(errors, sorted(errors, reverse=True))
+            plot_speed_error.plot_all_fem(folder)
+            for name in ("sag", "heavy", "fall", "cook_0.4999"):
+                self.assertGreater(os.path.getsize(os.path.join(folder, "fem_%s.png" % name)), 1000)
+
     def test_bad_calls(self):
         for arguments in ([], ["field"], ["magic", "--out", "x"], ["field", "--out"]):
             result = subprocess.run([PROGRAM] + arguments, stderr=subprocess.PIPE, check=False)

@@ -1,0 +1,16 @@
+#include "fem_study.h"
+
+#include "fem_bullet.h"
+#include "fem_error.h"
+#include "fem_race.h"
+
+namespace soft_tissue::studies
+{
+void studyFem(const std::string& folder, bool quick)
+{
+  raceFem(folder, quick);
+  raceBullet(folder, quick);
+  studyFemError(folder, quick);
+}
+
+}  // namespace soft_tissue::studies

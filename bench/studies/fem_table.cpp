@@ -1,0 +1,73 @@
+#include "fem_table.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "soft_tissue_sim/base/error.h"
+
+namespace soft_tissue::studies
+{
+namespace
+{
+/** Errors closer than this are the same: what is left is where iterations stopped. */
+constexpr double kBetter = 1.001;
+
+const char* nameOf(MaterialModel law)
+{
+  const char* const kNames[] = {"neo_hookean", "neo_hookean_log",     "exponential",
+                                "corotated",   "st_venant_kirchhoff", "linear"};
+  return kNames[static_cast<int>(law)];
+}
+}  // namespace
+
+FemTable::FemTable(const std::string& folder) : path_(folder + "/fem.csv"), stream_(path_)
+{
+  stream_ << "case,method,element,law,linear,tolerance,tets,nodes,ms,found,error,converged,pareto,"
+             "default\n";
+  check();
+}
+
+void FemTable::add(const FemChoice& choice, const FemResult& result)
+{
+  rows_.push_back({choice, result});
+}
+
+void FemTable::finishCase(const std::string& name)
+{
+  for (const Row& row : rows_)
+  {
+    const FemChoice& choice = row.choice;
+    const FemResult& result = row.result;
+    const bool pareto = std::none_of(rows_.begin(), rows_.end(), [&](const Row& other) {
+      return other.result.ms < result.ms && other.result.error < kBetter * result.error;
+    });
+    const TissueConfig tissue;
+    const SolverConfig solver;
+    const bool is_default = result.other.empty() && choice.element == tissue.element &&
+                            choice.law == tissue.material.model &&
+                            choice.linear == LinearSolverKind::pcg &&
+                            choice.tolerance == solver.tolerance;
+    char line[300];
+    std::snprintf(line, sizeof(line), "%s,%s,%s,%s,%s,%g,%zu,%zu,%.4g,%.6g,%.4g,%d,%d,%d\n",
+                  name.c_str(), result.other.empty() ? "scene" : result.other.c_str(),
+                  choice.element == ElementKind::tet4 ? "tet4" : "tet10", nameOf(choice.law),
+                  choice.linear == LinearSolverKind::cholesky ? "cholesky" : "pcg",
+                  choice.tolerance, result.tets, result.nodes, result.ms, result.found,
+                  result.error, result.converged ? 1 : 0, pareto ? 1 : 0, is_default ? 1 : 0);
+    stream_ << line << std::flush;
+    std::printf("fem %s", line);
+  }
+  std::fflush(stdout);
+  rows_.clear();
+  check();
+}
+
+void FemTable::check() const
+{
+  if (!stream_)
+  {
+    throw Error(path_ + ": can't be written");
+  }
+}
+
+}  // namespace soft_tissue::studies
