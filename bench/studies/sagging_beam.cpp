@@ -108,7 +108,8 @@ StepResidual::StepResidual(const TetMesh& rest, const BeamSetup& setup)
 
 double StepResidual::of(const Points& x, const Points& v, double step_s, const Points& after)
 {
-  inertia_.beginStep(x, v, step_s);
+  inertia_.beginStep(0, static_cast<Index>(x.size()), {x, v, x, v},
+                     StepFormula::implicitEuler(step_s));
   sum_.assign(x.size(), Vec3::Zero());
   const auto norm = [this](Points& forces) {
     for (const Index node : fixed_)
