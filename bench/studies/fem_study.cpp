@@ -3,6 +3,7 @@
 #include "fem_bullet.h"
 #include "fem_error.h"
 #include "fem_race.h"
+#include "fem_roofline.h"
 
 namespace soft_tissue::studies
 {
@@ -10,6 +11,7 @@ void studyFem(const std::string& folder, bool quick)
 {
   raceFem(folder, quick);
   raceBullet(folder, quick);
+  studyRoofline(folder, quick);
   studyFemError(folder, quick);
 }
 

@@ -93,6 +93,12 @@ class SpeedError(unittest.TestCase):
                 self.assertAlmostEqual(float(row["tip_y_mm"]), fall, delta=-0.1 * fall, msg=row)
                 self.assertLess(float(row["farthest_off_mm"]), 0.1, row)
 
+            with open(os.path.join(folder, "fem_roofline.csv")) as stream:
+                rows = {row["loop"]: row for row in csv.DictReader(stream)}
+            self.assertEqual(list(rows), ["product single", "product double", "forces", "stiffness"])
+            single, double = (float(rows["product " + real]["mbytes"]) for real in ("single", "double"))
+            self.assertTrue(1.8 < double / single < 2.0, "columns have one size, numbers half the size")
+
             with open(os.path.join(folder, "fem.csv")) as stream:
                 rows = list(csv.DictReader(stream))
             self.assertEqual(list(rows[0]), ["case", "method", "element", "law", "linear", "tolerance", "tets", "nodes",
