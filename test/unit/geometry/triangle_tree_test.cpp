@@ -46,8 +46,14 @@ Soup randomSoup(RandomGeometry& random, int count, double size)
   return soup;
 }
 
-/** The oracle: of all triangles, one after the other. */
-TriangleTree::Nearest bruteForce(const Soup& soup, const Vec3& p)
+bool all(Index /*triangle*/)
+{
+  return true;
+}
+
+/** The oracle: of all triangles that are allowed, one after the other. */
+template <typename Allowed = bool (*)(Index)>
+TriangleTree::Nearest bruteForce(const Soup& soup, const Vec3& p, const Allowed& allowed = all)
 {
   TriangleTree::Nearest nearest;
   nearest.point.squared_distance = std::numeric_limits<double>::infinity();
@@ -55,7 +61,7 @@ TriangleTree::Nearest bruteForce(const Soup& soup, const Vec3& p)
   {
     const Triangle& t = soup.triangles[i];
     const TrianglePoint point = closestOnTriangle(p, soup.x[t[0]], soup.x[t[1]], soup.x[t[2]]);
-    if (point.squared_distance < nearest.point.squared_distance)
+    if (allowed(static_cast<Index>(i)) && point.squared_distance < nearest.point.squared_distance)
     {
       nearest.point = point;
       nearest.triangle = static_cast<Index>(i);
@@ -170,6 +176,36 @@ TEST(TriangleTree, HasNoAnswerWhereNothingIsFinite)
   soup.x.assign(soup.x.size(), Vec3::Constant(nan));
   tree.refit(soup.x);
   EXPECT_EQ(tree.nearest(Vec3::Zero(), soup.x).triangle, -1);
+}
+
+// The tree may be where the surface was, and some triangles may not count.
+TEST(TriangleTree, FindsTheNearestOfThoseAllowedOnASurfaceThatMovedOn)
+{
+  RandomGeometry random(17);
+  for (const double moved : {0.0, 1e-3, 0.3})
+  {
+    Soup soup = randomSoup(random, 150, 0.1);
+    TriangleTree tree;
+    tree.build(soup.triangles, soup.x);
+    for (Vec3& p : soup.x)
+    {
+      p += moved * random.point(1.0).normalized();
+    }
+    for (int i = 0; i < 200; ++i)
+    {
+      const Vec3 p = random.point(1.2);
+      const auto allowed = [i](Index triangle) { return (triangle + i) % 3 != 0; };
+      const TriangleTree::Nearest exact = bruteForce(soup, p, allowed);
+      for (const Index hint : {-1, i % static_cast<Index>(soup.triangles.size())})
+      {
+        const TriangleTree::Nearest found = tree.nearestOf(p, soup.x, hint, moved, allowed);
+        EXPECT_EQ(found.triangle, exact.triangle);
+        EXPECT_EQ(found.point.squared_distance, exact.point.squared_distance);
+      }
+    }
+    const auto none = [](Index) { return false; };
+    EXPECT_EQ(tree.nearestOf(Vec3::Zero(), soup.x, 0, moved, none).triangle, -1);
+  }
 }
 
 }  // namespace
