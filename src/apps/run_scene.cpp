@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "soft_tissue_sim/node/identification.h"
 #include "soft_tissue_sim/node/run_options.h"
 #include "soft_tissue_sim/node/scene_run.h"
 #include "soft_tissue_sim/scene/config.h"
@@ -18,6 +19,10 @@ int main(int argc, char** argv)
     else if (options.describe_schema)
     {
       std::printf("%s", soft_tissue::describeSchema().c_str());
+    }
+    else if (!options.identify.empty())
+    {
+      identifyParameters(options);
     }
     else
     {

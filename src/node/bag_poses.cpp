@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "bag_topics.h"
 #include "bag_transforms.h"
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/node/command_check.h"
@@ -23,53 +24,13 @@ using soft_tissue::Pose;
 using soft_tissue::ToolConfig;
 using Kind = soft_tissue::PoseSourceConfig::Kind;
 
+const std::string kPoseType = "geometry_msgs/PoseStamped";
+
 struct Sample
 {
   ros::Time stamp;
   Pose X_WT;
 };
-
-bool endsWithName(const std::string& topic, const std::string& name)
-{
-  const bool ends = topic.size() >= name.size() &&
-                    topic.compare(topic.size() - name.size(), name.size(), name) == 0;
-  return ends && (topic.size() == name.size() || topic[topic.size() - name.size() - 1] == '/');
-}
-
-/** Topics of a bag with their types. */
-std::map<std::string, std::string> topicTypes(rosbag::Bag& bag)
-{
-  std::map<std::string, std::string> types;
-  rosbag::View view(bag);
-  for (const rosbag::ConnectionInfo* connection : view.getConnections())
-  {
-    types[connection->topic] = connection->datatype;
-  }
-  return types;
-}
-
-/** The one topic that ends with "<tool>/<name>"; empty if there is none. */
-std::string findTopic(const std::map<std::string, std::string>& types, const std::string& name)
-{
-  std::string found;
-  for (const auto& [topic, type] : types)
-  {
-    if (!endsWithName(topic, name))
-    {
-      continue;
-    }
-    if (!found.empty())
-    {
-      throw Error("both " + found + " and " + topic + " have poses for " + name);
-    }
-    if (type != "geometry_msgs/PoseStamped")
-    {
-      throw Error("topic " + topic + " is of type " + type + ", must be geometry_msgs/PoseStamped");
-    }
-    found = topic;
-  }
-  return found;
-}
 
 /** Reads one tool's samples in the order of the bag. */
 class SampleReader
@@ -87,6 +48,11 @@ class SampleReader
     for (const rosbag::MessageInstance& instance : view)
     {
       const auto message = instance.instantiate<geometry_msgs::PoseStamped>();
+      if (!message)
+      {
+        ++refused[kOtherDefinition];
+        continue;
+      }
       const ros::Time stamp =
           message->header.stamp.isZero() ? instance.getTime() : message->header.stamp;
       try
@@ -163,22 +129,21 @@ class SampleReader
 };
 
 std::vector<Sample> readSamples(SampleReader& reader, const ToolConfig& tool,
-                                const std::map<std::string, std::string>& types,
-                                std::vector<std::string>& warnings)
+                                const TopicTypes& types, std::vector<std::string>& warnings)
 {
   if (tool.pose_source.kind == Kind::tf)
   {
     return reader.fromFrame(tool.pose_source.name);
   }
-  std::string topic = findTopic(types, tool.name + "/" + tool.pose_source.name);
+  std::string topic = findTopic(types, tool.name + "/" + tool.pose_source.name, kPoseType);
   if (topic.empty())
   {
-    topic = findTopic(types, tool.name + "/measured_cp");
+    topic = findTopic(types, tool.name + "/measured_cp", kPoseType);
   }
   return topic.empty() ? std::vector<Sample>() : reader.fromTopic(topic, warnings);
 }
 
-std::string listTopics(const std::map<std::string, std::string>& types)
+std::string listTopics(const TopicTypes& types)
 {
   std::string list;
   for (const auto& [topic, type] : types)
@@ -210,7 +175,7 @@ std::string wantedNames(const std::vector<ToolConfig>& tools)
 BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
                 const std::string& world_frame)
 {
-  const std::map<std::string, std::string> types = topicTypes(bag);
+  const TopicTypes types = topicTypes(bag);
   SampleReader reader(bag, world_frame);
   BagPoses poses;
   std::vector<std::vector<Sample>> samples(tools.size());
@@ -264,23 +229,9 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
 BagPoses readBagPoses(const std::string& path, const std::vector<ToolConfig>& tools,
                       const std::string& world_frame)
 {
-  try
-  {
-    rosbag::Bag bag(path, rosbag::bagmode::Read);
-    return gather(bag, tools, world_frame);
-  }
-  catch (const rosbag::BagUnindexedException&)
-  {
-    throw Error("bag " + path + ": is not closed properly or truncated; try 'rosbag reindex'");
-  }
-  catch (const Error& error)
-  {
-    throw Error("bag " + path + ": " + error.what());
-  }
-  catch (const std::exception& error)
-  {
-    throw Error("bag " + path + ": is not a readable bag: " + error.what());
-  }
+  BagPoses poses;
+  readBag(path, [&](rosbag::Bag& bag) { poses = gather(bag, tools, world_frame); });
+  return poses;
 }
 
 }  // namespace soft_tissue_sim

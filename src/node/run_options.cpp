@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <sstream>
 
 namespace soft_tissue_sim
 {
@@ -38,6 +39,17 @@ int parseCount(const std::string& option, const std::string& text)
   return static_cast<int>(value);
 }
 
+std::vector<std::string> splitNames(const std::string& text)
+{
+  std::vector<std::string> names;
+  std::istringstream stream(text);
+  for (std::string name; std::getline(stream, name, ',');)
+  {
+    names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string runUsage()
@@ -51,6 +63,13 @@ std::string runUsage()
          "  --state-rate HZ      most tissue states a simulated second in that bag; 0: every step\n"
          "  --csv FILE           one line a step\n"
          "  --json FILE          summary of the run\n"
+         "  --compare FILE       forces simulated and those in the bag, "
+         ".../<tool>/body/measured_cf\n"
+         "                       or .../spatial/measured_cf, as CSV; errors in the summary\n"
+         "  --tare S             takes the mean of the bag's forces in its first S seconds for "
+         "zero\n"
+         "  --identify NAMES     fits numbers of the scene to those forces, e.g.\n"
+         "                       liver/young_modulus_pa,liver/probe/stiffness_pa_per_m\n"
          "  --frame-id FRAME     name of the world frame (world)\n"
          "  --threads N          threads a step may use; 0: one per processor\n"
          "  --quiet              print nothing but errors\n"
@@ -68,6 +87,10 @@ RunOptions parseRunOptions(const std::vector<std::string>& arguments)
        {"--bag-in", [&](const auto&, const auto& text) { options.bag_in = text; }},
        {"--bag-out", [&](const auto&, const auto& text) { options.bag_out = text; }},
        {"--csv", [&](const auto&, const auto& text) { options.csv = text; }},
+       {"--compare", [&](const auto&, const auto& text) { options.compare = text; }},
+       {"--tare",
+        [&](const auto& name, const auto& text) { options.tare_s = parseNumber(name, text, 0.0); }},
+       {"--identify", [&](const auto&, const auto& text) { options.identify = splitNames(text); }},
        {"--json", [&](const auto&, const auto& text) { options.json = text; }},
        {"--frame-id", [&](const auto&, const auto& text) { options.world_frame = text; }},
        {"--state-rate",
@@ -113,6 +136,15 @@ RunOptions parseRunOptions(const std::vector<std::string>& arguments)
   if (options.scene.empty() && !options.help && !options.describe_schema)
   {
     throw UsageError("a scene file is needed");
+  }
+  if (options.bag_in.empty() && (!options.compare.empty() || !options.identify.empty()))
+  {
+    throw UsageError("--compare and --identify need forces from --bag-in");
+  }
+  if (!options.identify.empty() &&
+      !(options.bag_out.empty() && options.csv.empty() && options.compare.empty()))
+  {
+    throw UsageError("--identify runs the scene many times: it writes --json alone");
   }
   return options;
 }

@@ -8,6 +8,7 @@
 
 #include "contact_sums.h"
 #include "soft_tissue_sim/node/json_writer.h"
+#include "soft_tissue_sim/node/wrench_comparison.h"
 
 namespace soft_tissue_sim
 {
@@ -124,7 +125,7 @@ void RunSummary::Force::add(double force_n, std::size_t contacts, double time_s)
   }
 }
 
-std::string RunSummary::json(double wall_s) const
+std::string RunSummary::json(double wall_s, const WrenchComparison* comparison) const
 {
   const double count = steps_ > 0 ? static_cast<double>(steps_) : 1.0;
   const double simulated = static_cast<double>(steps_) * time_step_s_;
@@ -177,7 +178,12 @@ std::string RunSummary::json(double wall_s) const
     json.value("last_force_y_n", pair.last_force_W.y());
     json.value("last_force_z_n", pair.last_force_W.z()).endObject();
   }
-  json.endArray().endObject();
+  json.endArray();
+  if (comparison != nullptr)
+  {
+    comparison->write(json);
+  }
+  json.endObject();
   return json.text();
 }
 

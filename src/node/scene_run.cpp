@@ -2,75 +2,24 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <thread>
 
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/timer.h"
-#include "soft_tissue_sim/node/bag_poses.h"
 #include "soft_tissue_sim/node/bag_recorder.h"
 #include "soft_tissue_sim/node/csv_recorder.h"
+#include "soft_tissue_sim/node/replay.h"
 #include "soft_tissue_sim/node/run_summary.h"
 #include "soft_tissue_sim/node/scene_loader.h"
+#include "soft_tissue_sim/node/wrench_comparison.h"
 
 namespace soft_tissue_sim
 {
 namespace
 {
 using soft_tissue::Error;
-using soft_tissue::SceneConfig;
-using soft_tissue::ToolConfig;
-
-soft_tissue::PoseConfig poseConfig(const soft_tissue::Pose& X)
-{
-  const soft_tissue::Vec3 ypr = X.linear().eulerAngles(2, 1, 0);
-  soft_tissue::PoseConfig config;
-  config.position_m = X.translation();
-  config.rotation_rpy_rad = soft_tissue::Vec3(ypr.z(), ypr.y(), ypr.x());
-  return config;
-}
-
-/** Tools start where the bag has them first, instead of jumping there. */
-void placeTools(SceneConfig& config, const BagPoses& poses)
-{
-  for (std::size_t tool = 0; tool < config.tools.size(); ++tool)
-  {
-    if (!poses.tools[tool].empty())
-    {
-      config.tools[tool].initial_pose = poseConfig(poses.tools[tool].poses_W.front());
-    }
-  }
-}
-
-double lastKeyframe(const SceneConfig& config)
-{
-  double last = 0.0;
-  for (const ToolConfig& tool : config.tools)
-  {
-    for (const soft_tissue::PoseKeyframe& keyframe : tool.pose_source.keyframes)
-    {
-      last = std::max(last, keyframe.time_s);
-    }
-  }
-  return last;
-}
-
-std::uint64_t stepCount(const RunOptions& options, const SceneConfig& config, const BagPoses& poses)
-{
-  const double duration =
-      options.duration_s.value_or(std::max(lastKeyframe(config), poses.length_s));
-  if (!options.duration_s && duration == 0.0)
-  {
-    throw Error("scene " + config.file +
-                ": has no key frames and there is no bag: how long is told by --duration");
-  }
-  constexpr double kRounding = 1.0e-6;
-  return static_cast<std::uint64_t>(std::ceil(duration / config.time_step_s - kRounding));
-}
 
 /** A bar on standard error, if that is a terminal. */
 class Progress
@@ -140,6 +89,7 @@ struct Recorders
   RunSummary summary;
   std::unique_ptr<BagRecorder> bag;
   std::unique_ptr<CsvRecorder> csv;
+  std::unique_ptr<WrenchComparison> comparison;
 
   void write(const soft_tissue::Snapshot& snapshot)
   {
@@ -152,40 +102,35 @@ struct Recorders
     {
       csv->write(snapshot);
     }
-  }
-};
-
-void setTargets(soft_tissue::Scene& scene, const BagPoses& poses, double time_s)
-{
-  for (std::size_t tool = 0; tool < poses.tools.size(); ++tool)
-  {
-    if (!poses.tools[tool].empty())
+    if (comparison)
     {
-      scene.setToolTarget(tool, poses.tools[tool].at(time_s));
+      comparison->add(snapshot);
     }
   }
-}
+
+  void close(const RunOptions& options)
+  {
+    if (bag)
+    {
+      bag->close();
+    }
+    if (csv)
+    {
+      csv->close();
+    }
+    if (comparison)
+    {
+      comparison->writeCsv(options.compare);
+    }
+  }
+};
 
 }  // namespace
 
 void runScene(const RunOptions& options)
 {
-  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  soft_tissue::setThreadCount(options.threads > 0 ? options.threads : processors);
-  SceneConfig config = loadConfig(options.scene);
-  BagPoses poses;
-  if (!options.bag_in.empty())
-  {
-    poses = readBagPoses(options.bag_in, config.tools, options.world_frame);
-    placeTools(config, poses);
-    for (const std::string& warning : poses.warnings)
-    {
-      std::fprintf(stderr, "warning: bag %s: %s\n", options.bag_in.c_str(), warning.c_str());
-    }
-  }
-  config.solver.budget_ms.reset();  // the same bits on a busy machine
-  const std::uint64_t steps = stepCount(options, config, poses);
-  soft_tissue::Scene scene = buildScene(config);
+  const Replay replay = readReplay(options);
+  soft_tissue::Scene scene = buildScene(replay.config);
   for (const soft_tissue::TissueInfo& tissue : scene.tissues())
   {
     for (const std::string& remark : tissue.remarks)
@@ -194,47 +139,41 @@ void runScene(const RunOptions& options)
     }
   }
   const SceneInfo info(scene);
-  Recorders recorders{RunSummary(config, info), nullptr, nullptr};
+  Recorders recorders{RunSummary(replay.config, info), nullptr, nullptr, nullptr};
   if (!options.bag_out.empty())
   {
     recorders.bag = std::make_unique<BagRecorder>(options.bag_out, info, options.world_frame,
-                                                  poses.start, options.state_rate_hz);
+                                                  replay.poses.start, options.state_rate_hz);
   }
   if (!options.csv.empty())
   {
     recorders.csv = std::make_unique<CsvRecorder>(options.csv, info);
   }
+  if (!options.compare.empty())
+  {
+    recorders.comparison = std::make_unique<WrenchComparison>(readComparison(options, replay));
+    recorders.comparison->writeCsv(options.compare);  // a wrong name must not cost a night
+  }
 
   SummaryFile summary_file(options.json);
-  Progress progress(steps, options.quiet);
-  soft_tissue::Snapshot snapshot;
+  Progress progress(replay.steps, options.quiet);
   const soft_tissue::Timer timer;
-  for (std::uint64_t step = 1; step <= steps; ++step)
-  {
-    setTargets(scene, poses, static_cast<double>(step) * config.time_step_s);
-    scene.step();
-    scene.fillSnapshot(snapshot);
+  runReplay(scene, replay, [&](const soft_tissue::Snapshot& snapshot) {
     recorders.write(snapshot);
-    progress.show(step);
-  }
+    progress.show(snapshot.report.step);
+  });
   const double wall_s = timer.seconds();
 
-  if (recorders.bag)
-  {
-    recorders.bag->close();
-  }
-  if (recorders.csv)
-  {
-    recorders.csv->close();
-  }
-  summary_file.write(recorders.summary.json(wall_s));
+  recorders.close(options);
+  summary_file.write(recorders.summary.json(wall_s, recorders.comparison.get()));
   if (!options.quiet)
   {
-    std::printf("%s", recorders.summary.text(wall_s).c_str());
+    std::printf("%s%s", recorders.summary.text(wall_s).c_str(),
+                recorders.comparison ? recorders.comparison->text().c_str() : "");
   }
   if (!recorders.summary.finite())
   {
-    throw Error("scene " + config.file + ": the result is not finite");
+    throw Error("scene " + replay.config.file + ": the result is not finite");
   }
 }
 

@@ -8,6 +8,8 @@
 
 namespace soft_tissue_sim
 {
+class WrenchComparison;
+
 /** Sums a run up, step by step. */
 class RunSummary
 {
@@ -16,8 +18,12 @@ class RunSummary
 
   void add(const soft_tissue::Snapshot& snapshot);
 
-  /** The summary as JSON. @param wall_s  wall time of the whole run, s */
-  std::string json(double wall_s) const;
+  /**
+   * The summary as JSON.
+   * @param wall_s      wall time of the whole run, s
+   * @param comparison  goes into it; may be null
+   */
+  std::string json(double wall_s, const WrenchComparison* comparison = nullptr) const;
   /** The summary in a few lines for a terminal. */
   std::string text(double wall_s) const;
 

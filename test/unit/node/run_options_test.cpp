@@ -8,9 +8,11 @@ namespace
 {
 TEST(RunOptions, readsEveryOption)
 {
-  const RunOptions options = parseRunOptions(
-      {"a.yaml", "--duration", "2.5", "--bag-in", "i.bag", "--bag-out", "o.bag", "--csv", "c.csv",
-       "--json", "j.json", "--threads", "3", "--state-rate", "0", "--frame-id", "base", "--quiet"});
+  const RunOptions options =
+      parseRunOptions({"a.yaml",    "--duration",   "2.5",    "--bag-in",   "i.bag",  "--bag-out",
+                       "o.bag",     "--csv",        "c.csv",  "--json",     "j.json", "--threads",
+                       "3",         "--state-rate", "0",      "--frame-id", "base",   "--quiet",
+                       "--compare", "f.csv",        "--tare", "0.5"});
   EXPECT_EQ(options.scene, "a.yaml");
   EXPECT_EQ(options.duration_s, 2.5);
   EXPECT_EQ(options.bag_in, "i.bag");
@@ -21,6 +23,13 @@ TEST(RunOptions, readsEveryOption)
   EXPECT_EQ(options.state_rate_hz, 0.0);
   EXPECT_EQ(options.world_frame, "base");
   EXPECT_TRUE(options.quiet);
+  EXPECT_EQ(options.compare, "f.csv");
+  EXPECT_EQ(options.tare_s, 0.5);
+  const std::vector<std::string> names = {"liver/young_modulus_pa", "liver/probe/friction"};
+  EXPECT_EQ(
+      parseRunOptions({"a.yaml", "--bag-in", "i.bag", "--identify", names[0] + "," + names[1]})
+          .identify,
+      names);
 }
 
 TEST(RunOptions, needsNoSceneToExplainItself)
@@ -31,17 +40,21 @@ TEST(RunOptions, needsNoSceneToExplainItself)
 
 TEST(RunOptions, refusesWhatItCannotUnderstand)
 {
-  const std::vector<std::vector<std::string>> wrong = {{},
-                                                       {"--quiet"},
-                                                       {"a.yaml", "b.yaml"},
-                                                       {"a.yaml", "--speed"},
-                                                       {"a.yaml", "--duration"},
-                                                       {"a.yaml", "--duration", "long"},
-                                                       {"a.yaml", "--duration", "1s"},
-                                                       {"a.yaml", "--duration", "-1"},
-                                                       {"a.yaml", "--duration", "nan"},
-                                                       {"a.yaml", "--threads", "1.5"},
-                                                       {"a.yaml", "--threads", "-1"}};
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"--quiet"},
+      {"a.yaml", "b.yaml"},
+      {"a.yaml", "--speed"},
+      {"a.yaml", "--duration"},
+      {"a.yaml", "--duration", "long"},
+      {"a.yaml", "--duration", "1s"},
+      {"a.yaml", "--duration", "-1"},
+      {"a.yaml", "--duration", "nan"},
+      {"a.yaml", "--threads", "1.5"},
+      {"a.yaml", "--threads", "-1"},
+      {"a.yaml", "--compare", "c.csv"},
+      {"a.yaml", "--identify", "a/b"},
+      {"a.yaml", "--bag-in", "i.bag", "--identify", "a/b", "--csv", "c.csv"}};
   for (const auto& arguments : wrong)
   {
     EXPECT_THROW(parseRunOptions(arguments), UsageError)

@@ -6,64 +6,24 @@
 #include <rosbag/view.h>
 #include <soft_tissue_sim/SimStats.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "soft_tissue_sim/base/error.h"
-#include "soft_tissue_sim/node/scratch_folder.h"
+#include "support/pressed_block.h"
 
 namespace soft_tissue_sim
 {
 namespace
 {
-constexpr int kSteps = 40;
+using namespace test;
 
 class SceneRun : public testing::Test
 {
  protected:
-  SceneRun()
-  {
-    std::ofstream(scene())
-        << "time_step_s: 0.01\n"
-           "tissues:\n"
-           "  - name: block\n"
-           "    mesh: {file: " SOURCE_DIR
-           "/test/ros/block.msh, length_unit: m}\n"
-           "    material: {model: neo_hookean, young_modulus_pa: 5000, poisson_ratio: 0.4,\n"
-           "               density_kg_per_m3: 1000}\n"
-           "    fixed: [{box_m: [[-1, -1, -0.001], [1, 1, 0.001]]}]\n"
-           "tools:\n"
-           "  - name: probe\n"
-           "    shape: {sphere: {radius_m: 0.008}}\n"
-           "    pose_source:\n"
-           "      keyframes:\n"
-           "        - {time_s: 0, position_m: [0, 0, 0.04]}\n"
-           "        - {time_s: 0.4, position_m: [0, 0, 0.035]}\n"
-           "contacts: [{between: [block, probe]}]\n";
-  }
+  RunOptions options(const std::string& name) const { return pressed_.options(name); }
+  static std::string contents(const std::string& path) { return PressedBlock::contents(path); }
 
-  std::string scene() const { return folder_.path() + "/scene.yaml"; }
-
-  RunOptions options(const std::string& name) const
-  {
-    RunOptions options;
-    options.scene = scene();
-    options.quiet = true;
-    options.bag_out = folder_.path() + "/" + name + ".bag";
-    options.csv = folder_.path() + "/" + name + ".csv";
-    options.json = folder_.path() + "/" + name + ".json";
-    return options;
-  }
-
-  static std::string contents(const std::string& path)
-  {
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-  }
-
-  ScratchFolder folder_;
+  PressedBlock pressed_;
 };
 
 TEST_F(SceneRun, writesTheSameBytesForAnyNumberOfThreads)
@@ -98,7 +58,7 @@ TEST_F(SceneRun, recordsEveryStepUpToTheLastKeyFrame)
       force_z = message.instantiate<geometry_msgs::WrenchStamped>()->wrench.force.z;
     }
   }
-  EXPECT_EQ(step, std::uint64_t{kSteps});
+  EXPECT_EQ(step, std::uint64_t{kPressedSteps});
   EXPECT_GT(force_z, 0.0);
   EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery("/sim_node/block/mesh")).size(), 1u);
 }
@@ -107,18 +67,14 @@ TEST_F(SceneRun, anOutputBagServesAsInput)
 {
   const RunOptions first = options("first");
   runScene(first);
-  std::string text = contents(scene());
-  text.replace(text.find("    pose_source:"), std::string::npos,
-               "    pose_source: {topic: servo_cp}\n"
-               "contacts: [{between: [block, probe]}]\n");
-  std::ofstream(scene()) << text;
+  pressed_.write(5000.0, kPressingTopic);
   RunOptions second = options("second");
   second.bag_in = first.bag_out;
   runScene(second);
   rosbag::Bag bag(second.bag_out);
   rosbag::View poses(bag, rosbag::TopicQuery("/sim_node/probe/measured_cp"));
   EXPECT_EQ(poses.size(),
-            static_cast<std::uint32_t>(kSteps - 1));  // from the first pose to the last
+            static_cast<std::uint32_t>(kPressedSteps - 1));  // from the first pose to the last
 }
 
 TEST_F(SceneRun, refusesWhatCannotBeWrittenOrHasNoEnd)
@@ -137,6 +93,31 @@ TEST_F(SceneRun, refusesWhatCannotBeWrittenOrHasNoEnd)
   EXPECT_THROW(runScene(run), soft_tissue::Error);
   run.bag_in = SOURCE_DIR "/test/ros/block.yaml";
   EXPECT_THROW(runScene(run), soft_tissue::Error);
+}
+
+// A run compared with its own bag is as far from it as the bag's forces are rounded: not at all.
+TEST_F(SceneRun, comparesForcesWithThoseInTheBag)
+{
+  const RunOptions first = options("first");
+  runScene(first);
+  pressed_.write(5000.0, kPressingTopic);
+  RunOptions second = options("second");
+  second.bag_in = first.bag_out;
+  second.compare = pressed_.path("compare.csv");
+  runScene(second);
+  std::istringstream lines(contents(second.compare));
+  std::string line;
+  int count = -1;  // the header
+  while (std::getline(lines, line))
+  {
+    ++count;
+  }
+  EXPECT_EQ(count, kPressedSteps - 1);
+  const std::string json = contents(second.json);
+  const std::size_t error = json.find("\"relative_error\": ");
+  ASSERT_NE(error, std::string::npos) << json;
+  // The first run's ball is at its second step where the second run's is at its first.
+  EXPECT_LT(std::stod(json.substr(error + 18)), 0.02) << json;
 }
 
 }  // namespace

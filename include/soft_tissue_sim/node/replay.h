@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "soft_tissue_sim/node/bag_poses.h"
+#include "soft_tissue_sim/node/run_options.h"
+#include "soft_tissue_sim/scene/scene.h"
+
+namespace soft_tissue_sim
+{
+/** What a run of a scene without a roscore takes: the scene, and where a bag has its tools. */
+struct Replay
+{
+  soft_tissue::SceneConfig config;
+  BagPoses poses;  ///< no tools if there is no bag
+  std::uint64_t steps = 0;
+};
+
+/**
+ * Reads scene and bag, and sets the number of threads; what the bag's reading has to say goes to
+ * standard error.
+ * @throws soft_tissue::Error if either can't be read, or nothing tells how long it takes
+ */
+Replay readReplay(const RunOptions& options);
+
+/** Takes a scene through it. @param seen  is called after each step */
+void runReplay(soft_tissue::Scene& scene, const Replay& replay,
+               const std::function<void(const soft_tissue::Snapshot&)>& seen);
+
+}  // namespace soft_tissue_sim

@@ -1,0 +1,113 @@
+#include "soft_tissue_sim/node/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/node/scene_loader.h"
+
+namespace soft_tissue_sim
+{
+namespace
+{
+using soft_tissue::Error;
+using soft_tissue::SceneConfig;
+using soft_tissue::ToolConfig;
+
+soft_tissue::PoseConfig poseConfig(const soft_tissue::Pose& X)
+{
+  const soft_tissue::Vec3 ypr = X.linear().eulerAngles(2, 1, 0);
+  soft_tissue::PoseConfig config;
+  config.position_m = X.translation();
+  config.rotation_rpy_rad = soft_tissue::Vec3(ypr.z(), ypr.y(), ypr.x());
+  return config;
+}
+
+/** Tools start where the bag has them first, instead of jumping there. */
+void placeTools(SceneConfig& config, const BagPoses& poses)
+{
+  for (std::size_t tool = 0; tool < config.tools.size(); ++tool)
+  {
+    if (!poses.tools[tool].empty())
+    {
+      config.tools[tool].initial_pose = poseConfig(poses.tools[tool].poses_W.front());
+    }
+  }
+}
+
+double lastKeyframe(const SceneConfig& config)
+{
+  double last = 0.0;
+  for (const ToolConfig& tool : config.tools)
+  {
+    for (const soft_tissue::PoseKeyframe& keyframe : tool.pose_source.keyframes)
+    {
+      last = std::max(last, keyframe.time_s);
+    }
+  }
+  return last;
+}
+
+std::uint64_t stepCount(const RunOptions& options, const SceneConfig& config, const BagPoses& poses)
+{
+  const double duration =
+      options.duration_s.value_or(std::max(lastKeyframe(config), poses.length_s));
+  if (!options.duration_s && duration == 0.0)
+  {
+    throw Error("scene " + config.file +
+                ": has no key frames and there is no bag: how long is told by --duration");
+  }
+  constexpr double kRounding = 1.0e-6;
+  return static_cast<std::uint64_t>(std::ceil(duration / config.time_step_s - kRounding));
+}
+
+void setTargets(soft_tissue::Scene& scene, const BagPoses& poses, double time_s)
+{
+  for (std::size_t tool = 0; tool < poses.tools.size(); ++tool)
+  {
+    if (!poses.tools[tool].empty())
+    {
+      scene.setToolTarget(tool, poses.tools[tool].at(time_s));
+    }
+  }
+}
+
+}  // namespace
+
+Replay readReplay(const RunOptions& options)
+{
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  soft_tissue::setThreadCount(options.threads > 0 ? options.threads : processors);
+  Replay replay;
+  replay.config = loadConfig(options.scene);
+  if (!options.bag_in.empty())
+  {
+    replay.poses = readBagPoses(options.bag_in, replay.config.tools, options.world_frame);
+    placeTools(replay.config, replay.poses);
+    for (const std::string& warning : replay.poses.warnings)
+    {
+      std::fprintf(stderr, "warning: bag %s: %s\n", options.bag_in.c_str(), warning.c_str());
+    }
+  }
+  replay.config.solver.budget_ms.reset();  // the same bits on a busy machine
+  replay.steps = stepCount(options, replay.config, replay.poses);
+  return replay;
+}
+
+void runReplay(soft_tissue::Scene& scene, const Replay& replay,
+               const std::function<void(const soft_tissue::Snapshot&)>& seen)
+{
+  soft_tissue::Snapshot snapshot;
+  for (std::uint64_t step = 1; step <= replay.steps; ++step)
+  {
+    setTargets(scene, replay.poses, static_cast<double>(step) * replay.config.time_step_s);
+    scene.step();
+    scene.fillSnapshot(snapshot);
+    seen(snapshot);
+  }
+}
+
+}  // namespace soft_tissue_sim
