@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "soft_tissue_sim/node/bounded_service.h"
 #include "soft_tissue_sim/node/geometry_conversions.h"
 
 namespace soft_tissue_sim
@@ -17,7 +18,10 @@ DistanceService::DistanceService(const ros::NodeHandle& node, const SceneInfo& i
     bodies_.emplace_back(tissue.surface);
   }
   node_.setCallbackQueue(&queue_);
-  server_ = node_.advertiseService("query_distance", &DistanceService::query, this);
+  server_ = advertiseBounded<QueryDistance, Request>(
+      node_, "query_distance", [this](Request& request, QueryDistance::Response& response) {
+        return query(request, response);
+      });
   spinner_.start();
 }
 
@@ -54,21 +58,22 @@ void DistanceService::takeNewest()
   }
 }
 
-bool DistanceService::query(QueryDistance::Request& request, QueryDistance::Response& response)
+bool DistanceService::query(Request& request, QueryDistance::Response& response)
 {
+  const std::string wanted(request.tissue.begin(), request.tissue.end());
   std::vector<std::size_t> tissues;
   std::string names;
   for (std::size_t i = 0; i < info_.tissues.size(); ++i)
   {
     names += (i > 0 ? ", " : "") + info_.tissues[i].name;
-    if (request.tissue.empty() || request.tissue == info_.tissues[i].name)
+    if (wanted.empty() || wanted == info_.tissues[i].name)
     {
       tissues.push_back(i);
     }
   }
-  if (tissues.empty() && !request.tissue.empty())
+  if (tissues.empty() && !wanted.empty())
   {
-    response.message = "tissue = '" + request.tissue + "', must be one of: " + names;
+    response.message = "tissue = '" + wanted + "', must be one of: " + names;
     return true;
   }
   if (!(request.max_distance >= 0.0))
@@ -85,7 +90,7 @@ bool DistanceService::query(QueryDistance::Request& request, QueryDistance::Resp
   response.header.frame_id = world_frame_;
   response.header.stamp = asked_.stamp;
   response.step = asked_.step;
-  for (const geometry_msgs::Point& point : request.points)
+  for (const auto& point : request.points)
   {
     answer(soft_tissue::Vec3(point.x, point.y, point.z), tissues, request.max_distance, response);
   }

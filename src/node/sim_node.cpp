@@ -52,7 +52,7 @@ void SimNode::addInputs(const std::vector<soft_tissue::ToolConfig>& tools)
     }
     if (!listener_)
     {
-      listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
+      listener_ = std::make_unique<TfListener>(buffer_);
     }
     CommandGate& gate = gates_.emplace_back(
         tools[tool].name,

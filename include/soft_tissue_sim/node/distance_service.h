@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/field/deformed_distance.h"
+#include "soft_tissue_sim/node/bounded_allocator.h"
 #include "soft_tissue_sim/node/frame_publisher.h"
 #include "soft_tissue_sim/node/scene_topics.h"
 
@@ -25,8 +26,10 @@ class DistanceService
   /** Takes a frame that later questions are about. */
   void note(const Frame& frame);
 
+  using Request = QueryDistanceRequest_<BoundedAllocator<void>>;
+
   /** Answers a question. Always true: what went wrong is in the response. */
-  bool query(QueryDistance::Request& request, QueryDistance::Response& response);
+  bool query(Request& request, QueryDistance::Response& response);
 
  private:
   struct Moment

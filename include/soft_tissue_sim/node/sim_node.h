@@ -3,7 +3,6 @@
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
 #include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <deque>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "soft_tissue_sim/node/frame_publisher.h"
 #include "soft_tissue_sim/node/node_params.h"
 #include "soft_tissue_sim/node/sim_services.h"
+#include "soft_tissue_sim/node/tf_listener.h"
 #include "soft_tissue_sim/node/tissue_topics.h"
 #include "soft_tissue_sim/node/tool_inputs.h"
 #include "soft_tissue_sim/node/tool_topics.h"
@@ -47,7 +47,7 @@ class SimNode
   PhysicsLoop loop_;
 
   tf2_ros::Buffer buffer_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  std::unique_ptr<TfListener> listener_;
   std::deque<CommandGate> gates_;
   std::deque<TopicInput> topic_inputs_;
   std::deque<TfInput> tf_inputs_;

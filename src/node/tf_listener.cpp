@@ -1,0 +1,98 @@
+#include "soft_tissue_sim/node/tf_listener.h"
+
+#include <ros/console.h>
+
+#include <Eigen/Geometry>
+#include <boost/shared_ptr.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace soft_tissue_sim
+{
+namespace
+{
+constexpr int kQueue = 100;
+/** Stamps later than this, in the year 2106, overflow where tf adds durations to them. */
+constexpr std::uint32_t kLastSecond = std::numeric_limits<std::uint32_t>::max() - 3600;
+
+geometry_msgs::TransformStamped plain(
+    const geometry_msgs::TransformStamped_<BoundedAllocator<void>>& bounded)
+{
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = bounded.header.stamp;
+  transform.header.frame_id.assign(bounded.header.frame_id.begin(), bounded.header.frame_id.end());
+  transform.child_frame_id.assign(bounded.child_frame_id.begin(), bounded.child_frame_id.end());
+  const auto& t = bounded.transform.translation;
+  const auto& r = bounded.transform.rotation;
+  transform.transform.translation.x = t.x;
+  transform.transform.translation.y = t.y;
+  transform.transform.translation.z = t.z;
+  transform.transform.rotation.x = r.x;
+  transform.transform.rotation.y = r.y;
+  transform.transform.rotation.z = r.z;
+  transform.transform.rotation.w = r.w;
+  return transform;
+}
+
+/** Why tf would refuse a transform, or should: it tells each time, for as many as come. Empty: it
+ * takes it. */
+std::string refusalOf(const geometry_msgs::TransformStamped& transform)
+{
+  const auto& t = transform.transform.translation;
+  const auto& r = transform.transform.rotation;
+  const Eigen::Quaterniond rotation(r.w, r.x, r.y, r.z);
+  constexpr double kUnit = 0.01;  // as tf has it
+  return transform.header.frame_id.empty() || transform.child_frame_id.empty()
+             ? "a frame has no name"
+         : transform.header.frame_id == transform.child_frame_id ? "a frame in itself"
+         : !std::isfinite(t.x + t.y + t.z)                       ? "not finite"
+         : !(std::abs(rotation.squaredNorm() - 1.0) <= kUnit)    ? "quaternion not unit"
+         : transform.header.stamp.sec > kLastSecond ? "its stamp is beyond the end of time"
+                                                    : "";
+}
+}  // namespace
+
+TfListener::TfListener(tf2::BufferCore& buffer) : buffer_(buffer), spinner_(1, &queue_)
+{
+  node_.setCallbackQueue(&queue_);
+  const auto listen = [this](const std::string& topic, bool is_static) {
+    const boost::function<void(const boost::shared_ptr<Message const>&)> take =
+        [this, is_static](const boost::shared_ptr<Message const>& message) {
+          this->take(*message, is_static);
+        };
+    return node_.subscribe<Message>(topic, kQueue, take);
+  };
+  moving_ = listen("/tf", false);
+  fixed_ = listen("/tf_static", true);
+  spinner_.start();
+}
+
+void TfListener::take(const Message& message, bool is_static)
+{
+  const ros::Time now = ros::Time::now();
+  if (now < last_)
+  {
+    ROS_WARN("the clock went back from %.3f to %.3f s: tf starts anew", last_.toSec(), now.toSec());
+    buffer_.clear();
+  }
+  last_ = now;
+  for (const auto& bounded : message.transforms)
+  {
+    const geometry_msgs::TransformStamped transform = plain(bounded);
+    const std::string refusal = refusalOf(transform);
+    if (refusal.empty())
+    {
+      buffer_.setTransform(transform, "tf", is_static);
+    }
+    else
+    {
+      ROS_WARN_THROTTLE(1.0, "transform from '%s' to '%s' refused: %s",
+                        transform.child_frame_id.c_str(), transform.header.frame_id.c_str(),
+                        refusal.c_str());
+    }
+  }
+}
+
+}  // namespace soft_tissue_sim
