@@ -1,3 +1,5 @@
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -6,9 +8,23 @@
 #include "soft_tissue_sim/node/scene_run.h"
 #include "soft_tissue_sim/scene/config.h"
 
+namespace
+{
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+
+/** The step at hand is finished and files are closed; a second signal ends the process. */
+void interrupt(int signal)
+{
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+}  // namespace
+
 int main(int argc, char** argv)
 {
   using namespace soft_tissue_sim;
+  constexpr int kInterrupted = 130;
   try
   {
     const RunOptions options = parseRunOptions({argv + 1, argv + argc});
@@ -26,7 +42,13 @@ int main(int argc, char** argv)
     }
     else
     {
-      runScene(options);
+      std::signal(SIGINT, interrupt);
+      std::signal(SIGTERM, interrupt);
+      if (!runScene(options, &interrupted))
+      {
+        std::fprintf(stderr, "run_scene: interrupted; what was simulated is written\n");
+        return kInterrupted;
+      }
     }
     return 0;
   }

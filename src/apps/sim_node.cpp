@@ -2,6 +2,7 @@
 
 #include <ros/ros.h>
 
+#include <csignal>
 #include <thread>
 
 #include "soft_tissue_sim/node/scene_loader.h"
@@ -9,6 +10,7 @@
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "sim_node");
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // as roscpp does on SIGINT
   const ros::NodeHandle private_node("~");
   try
   {

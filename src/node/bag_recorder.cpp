@@ -9,6 +9,8 @@ namespace soft_tissue_sim
 namespace
 {
 const std::string kNamespace = "/sim_node/";
+/** What is not in a finished chunk is lost if the process is killed. */
+constexpr std::uint32_t kChunkBytes = 128 << 10;
 }  // namespace
 
 BagRecorder::BagRecorder(const std::string& path, const SceneInfo& info,
@@ -24,6 +26,7 @@ BagRecorder::BagRecorder(const std::string& path, const SceneInfo& info,
   {
     bag_.open(path, rosbag::bagmode::Write);
     bag_.setCompression(rosbag::compression::LZ4);
+    bag_.setChunkThreshold(kChunkBytes);
     writeMeshes();
   }
   catch (const rosbag::BagException& error)

@@ -175,8 +175,10 @@ void identifyParameters(const RunOptions& options)
     numbers.set(replay.config, fitted);
     soft_tissue::Scene scene = buildScene(replay.config);
     WrenchComparison comparison = measured;
-    runReplay(scene, replay,
-              [&](const soft_tissue::Snapshot& snapshot) { comparison.add(snapshot); });
+    runReplay(scene, replay, [&](const soft_tissue::Snapshot& snapshot) {
+      comparison.add(snapshot);
+      return true;
+    });
     const VectorXd errors = forceErrors(comparison, replay.config.tools.size());
     const double error_n = rootMeanSquare(errors);
     error_before_n = error_before_n < 0.0 ? error_n : error_before_n;

@@ -98,7 +98,7 @@ Replay readReplay(const RunOptions& options)
 }
 
 void runReplay(soft_tissue::Scene& scene, const Replay& replay,
-               const std::function<void(const soft_tissue::Snapshot&)>& seen)
+               const std::function<bool(const soft_tissue::Snapshot&)>& seen)
 {
   soft_tissue::Snapshot snapshot;
   for (std::uint64_t step = 1; step <= replay.steps; ++step)
@@ -106,7 +106,10 @@ void runReplay(soft_tissue::Scene& scene, const Replay& replay,
     setTargets(scene, replay.poses, static_cast<double>(step) * replay.config.time_step_s);
     scene.step();
     scene.fillSnapshot(snapshot);
-    seen(snapshot);
+    if (!seen(snapshot))
+    {
+      return;
+    }
   }
 }
 

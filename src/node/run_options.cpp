@@ -75,7 +75,7 @@ std::string runUsage()
          "  --quiet              print nothing but errors\n"
          "  --describe-schema    print all keys of a scene file, and end\n"
          "  --help               print this, and end\n\n"
-         "exit status: 0 done, 1 failed, 2 wrong usage\n";
+         "exit status: 0 done, 1 failed, 2 wrong usage, 130 interrupted, with all files closed\n";
 }
 
 RunOptions parseRunOptions(const std::vector<std::string>& arguments)

@@ -127,7 +127,7 @@ struct Recorders
 
 }  // namespace
 
-void runScene(const RunOptions& options)
+bool runScene(const RunOptions& options, const std::atomic<bool>* interrupted)
 {
   const Replay replay = readReplay(options);
   soft_tissue::Scene scene = buildScene(replay.config);
@@ -157,10 +157,13 @@ void runScene(const RunOptions& options)
 
   SummaryFile summary_file(options.json);
   Progress progress(replay.steps, options.quiet);
+  std::uint64_t last_step = 0;
   const soft_tissue::Timer timer;
   runReplay(scene, replay, [&](const soft_tissue::Snapshot& snapshot) {
     recorders.write(snapshot);
     progress.show(snapshot.report.step);
+    last_step = snapshot.report.step;
+    return interrupted == nullptr || !*interrupted;
   });
   const double wall_s = timer.seconds();
 
@@ -175,6 +178,7 @@ void runScene(const RunOptions& options)
   {
     throw Error("scene " + replay.config.file + ": the result is not finite");
   }
+  return last_step == replay.steps;
 }
 
 }  // namespace soft_tissue_sim

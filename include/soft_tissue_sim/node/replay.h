@@ -24,8 +24,8 @@ struct Replay
  */
 Replay readReplay(const RunOptions& options);
 
-/** Takes a scene through it. @param seen  is called after each step */
+/** Takes a scene through it. @param seen  is called after each step; whether to go on */
 void runReplay(soft_tissue::Scene& scene, const Replay& replay,
-               const std::function<void(const soft_tissue::Snapshot&)>& seen);
+               const std::function<bool(const soft_tissue::Snapshot&)>& seen);
 
 }  // namespace soft_tissue_sim
