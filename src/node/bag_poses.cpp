@@ -253,7 +253,7 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
     for (const Sample& sample : samples[tool])
     {
       poses.tools[tool].times_s.push_back((sample.stamp - first).toSec());
-      poses.tools[tool].poses_W.push_back(sample.X_WT);
+      poses.tools[tool].samples.push_back(sample.X_WT);
     }
   }
   return poses;

@@ -5,7 +5,7 @@
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/node/package_resolver.h"
 #include "soft_tissue_sim/node/scratch_folder.h"
-#include "soft_tissue_sim/node/urdf_shapes.h"
+#include "soft_tissue_sim/node/urdf_tool.h"
 
 namespace soft_tissue_sim
 {
@@ -27,14 +27,13 @@ soft_tissue::Scene buildScene(soft_tissue::SceneConfig config)
     {
       const std::string folder = scratch.path() + "/" + tool.name;
       std::filesystem::create_directories(folder);
-      tool.shapes = shapesFromUrdf(*tool.urdf, folder);
+      readUrdf(tool, folder);
     }
     catch (const soft_tissue::Error& error)
     {
       throw soft_tissue::Error("scene " + config.file + ": tool '" + tool.name +
                                "': " + error.what());
     }
-    tool.urdf.reset();
   }
   return soft_tissue::Scene(config);
 }

@@ -41,7 +41,7 @@ void placeTools(SceneConfig& config, const BagPoses& poses)
   {
     if (!poses.tools[tool].empty())
     {
-      config.tools[tool].initial_pose = poseConfig(poses.tools[tool].poses_W.front());
+      config.tools[tool].initial_pose = poseConfig(poses.tools[tool].samples.front());
     }
   }
 }
@@ -191,6 +191,13 @@ void runScene(const RunOptions& options)
     for (const std::string& remark : tissue.remarks)
     {
       std::fprintf(stderr, "note: %s\n", remark.c_str());
+    }
+  }
+  for (const ToolConfig& tool : scene.config().tools)
+  {
+    for (const std::string& remark : tool.remarks)
+    {
+      std::fprintf(stderr, "note: tool '%s': %s\n", tool.name.c_str(), remark.c_str());
     }
   }
   const SceneInfo info(scene);

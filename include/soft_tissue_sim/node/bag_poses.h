@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "soft_tissue_sim/base/pose_series.h"
+#include "soft_tissue_sim/base/series.h"
 #include "soft_tissue_sim/scene/config.h"
 
 namespace soft_tissue_sim
