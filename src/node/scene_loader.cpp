@@ -14,9 +14,8 @@ soft_tissue::SceneConfig loadConfig(const std::string& path)
   return soft_tissue::loadSceneConfig(path, &findPackage);
 }
 
-soft_tissue::Scene buildScene(soft_tissue::SceneConfig config)
+void readUrdfs(soft_tissue::SceneConfig& config, const ScratchFolder& scratch)
 {
-  const ScratchFolder scratch;
   for (soft_tissue::ToolConfig& tool : config.tools)
   {
     if (!tool.urdf)
@@ -35,6 +34,12 @@ soft_tissue::Scene buildScene(soft_tissue::SceneConfig config)
                                "': " + error.what());
     }
   }
+}
+
+soft_tissue::Scene buildScene(soft_tissue::SceneConfig config)
+{
+  const ScratchFolder scratch;
+  readUrdfs(config, scratch);
   return soft_tissue::Scene(config);
 }
 
