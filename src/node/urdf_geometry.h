@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "soft_tissue_sim/mesh/tet_mesh.h"
 #include "soft_tissue_sim/scene/tool_config.h"
 
 namespace soft_tissue_sim

@@ -18,9 +18,11 @@ constexpr const char* kWrist = R"(
   <link name="table"/>
   <link name="slide"/>
   <link name="palm"><collision><geometry><sphere radius="0.01"/></geometry></collision></link>
-  <link name="finger"><collision><geometry><box size="0.01 0.02 0.03"/></geometry></collision></link>
+  <link name="finger">
+    <collision><geometry><box size="0.01 0.02 0.03"/></geometry></collision></link>
   <link name="thumb"><collision><geometry><sphere radius="0.002"/></geometry></collision></link>
-  <link name="nail"><collision><origin xyz="0 0.01 0"/><geometry><sphere radius="0.001"/></geometry></collision></link>
+  <link name="nail"><collision><origin xyz="0 0.01 0"/>
+    <geometry><sphere radius="0.001"/></geometry></collision></link>
   <link name="hook"><collision><geometry><sphere radius="0.001"/></geometry></collision></link>
   <joint name="spin" type="continuous"><parent link="table"/><child link="slide"/>
     <axis xyz="0 0 2"/><limit velocity="4" effort="1"/></joint>
