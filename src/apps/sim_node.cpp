@@ -26,6 +26,13 @@ int main(int argc, char** argv)
         ROS_WARN_STREAM("tissue '" << tissue.name << "': " << remark);
       }
     }
+    for (const soft_tissue::ToolConfig& tool : scene.config().tools)
+    {
+      for (const std::string& remark : tool.remarks)
+      {
+        ROS_WARN_STREAM("tool '" << tool.name << "': " << remark);
+      }
+    }
     SimNode node(private_node, params, std::move(scene));
     ROS_INFO_STREAM("simulating " << params.scene);
     ros::spin();

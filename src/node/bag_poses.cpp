@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "bag_joints.h"
 #include "bag_topics.h"
 #include "bag_transforms.h"
 #include "soft_tissue_sim/base/error.h"
@@ -135,12 +136,38 @@ std::vector<Sample> readSamples(SampleReader& reader, const ToolConfig& tool,
   {
     return reader.fromFrame(tool.pose_source.name);
   }
-  std::string topic = findTopic(types, tool.name + "/" + tool.pose_source.name, kPoseType);
+  std::string topic;
+  if (tool.pose_source.kind == Kind::topic)
+  {
+    topic = findTopic(types, tool.name + "/" + tool.pose_source.name, kPoseType);
+  }
   if (topic.empty())
   {
     topic = findTopic(types, tool.name + "/measured_cp", kPoseType);
   }
   return topic.empty() ? std::vector<Sample>() : reader.fromTopic(topic, warnings);
+}
+
+/** What a tool's joints, or its jaw's, are in the bag; nothing where something else moves them. */
+JointSamples readJointsOf(const rosbag::Bag& bag, const ToolConfig& tool, bool of_jaw,
+                          const TopicTypes& types,
+                          std::vector<std::string>& warnings)
+{
+  using JointKind = soft_tissue::JointSourceConfig::Kind;
+  const JointKind kind = tool.joint_source.kind;
+  if (tool.linkage.coordinates().empty() ||
+      (of_jaw ? !tool.jaw || kind == JointKind::keyframes : kind != JointKind::topic))
+  {
+    return {};
+  }
+  const char* const state = "sensor_msgs/JointState";
+  const std::string name = of_jaw ? tool.jaw->topic : tool.joint_source.name;
+  std::string topic = findTopic(types, tool.name + "/" + name, state);
+  if (topic.empty())
+  {
+    topic = findTopic(types, tool.name + (of_jaw ? "/jaw/measured_js" : "/measured_js"), state);
+  }
+  return topic.empty() ? JointSamples() : readJoints(bag, topic, tool, of_jaw, warnings);
 }
 
 std::string listTopics(const TopicTypes& types)
@@ -159,14 +186,22 @@ std::string wantedNames(const std::vector<ToolConfig>& tools)
   for (const ToolConfig& tool : tools)
   {
     const std::string separator = names.empty() ? "" : ", ";
-    if (tool.pose_source.kind == Kind::topic)
+    switch (tool.pose_source.kind)
     {
-      names +=
-          separator + tool.name + "/" + tool.pose_source.name + " or " + tool.name + "/measured_cp";
-    }
-    else if (tool.pose_source.kind == Kind::tf)
-    {
-      names += separator + "tf frame " + tool.pose_source.name;
+      case Kind::topic:
+        names += separator + tool.name + "/" + tool.pose_source.name + " or " + tool.name +
+                 "/measured_cp";
+        break;
+      case Kind::twist:
+      case Kind::marker:
+        names += separator + tool.name + "/measured_cp";
+        break;
+      case Kind::tf:
+        names += separator + "tf frame " + tool.pose_source.name;
+        break;
+      case Kind::keyframes:
+      case Kind::base:
+        break;
     }
   }
   return names.empty() ? "nothing: all tools of the scene follow key frames" : names;
@@ -179,12 +214,27 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
   SampleReader reader(bag, world_frame);
   BagPoses poses;
   std::vector<std::vector<Sample>> samples(tools.size());
+  std::vector<JointSamples> joints, jaws;
   std::vector<std::string> without_poses;
   ros::Time first = ros::TIME_MAX;
   ros::Time last = ros::TIME_MIN;
+  const auto include = [&](const ros::Time& begin, const ros::Time& end) {
+    first = std::min(first, begin);
+    last = std::max(last, end);
+  };
   for (std::size_t tool = 0; tool < tools.size(); ++tool)
   {
-    if (tools[tool].pose_source.kind == Kind::keyframes)
+    joints.push_back(readJointsOf(bag, tools[tool], false, types, poses.warnings));
+    jaws.push_back(readJointsOf(bag, tools[tool], true, types, poses.warnings));
+    for (const JointSamples* read : {&joints.back(), &jaws.back()})
+    {
+      if (!read->empty())
+      {
+        include(read->stamps.front(), read->stamps.back());
+      }
+    }
+    if (tools[tool].pose_source.kind == Kind::keyframes ||
+        tools[tool].pose_source.kind == Kind::base)
     {
       continue;
     }
@@ -196,8 +246,7 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
       without_poses.push_back("no poses for tool '" + tools[tool].name + "': it stays where it is");
       continue;
     }
-    first = std::min(first, samples[tool].front().stamp);
-    last = std::max(last, samples[tool].back().stamp);
+    include(samples[tool].front().stamp, samples[tool].back().stamp);
   }
   if (first == ros::TIME_MAX)
   {
@@ -215,10 +264,15 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
   poses.tools.resize(tools.size());
   for (std::size_t tool = 0; tool < tools.size(); ++tool)
   {
+    poses.joints.push_back(joints[tool].since(first));
+    poses.jaws.push_back(jaws[tool].since(first));
+  }
+  for (std::size_t tool = 0; tool < tools.size(); ++tool)
+  {
     for (const Sample& sample : samples[tool])
     {
       poses.tools[tool].times_s.push_back((sample.stamp - first).toSec());
-      poses.tools[tool].poses_W.push_back(sample.X_WT);
+      poses.tools[tool].samples.push_back(sample.X_WT);
     }
   }
   return poses;

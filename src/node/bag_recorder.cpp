@@ -90,6 +90,15 @@ void BagRecorder::writeTool(std::size_t tool, const soft_tissue::Snapshot& snaps
   bag_.write(topic + "/body/measured_cf", stamp.time, bodyWrenchMessage(state, name, stamp));
   bag_.write(topic + "/spatial/measured_cf", stamp.time, spatialWrenchMessage(state, stamp));
   bag_.write(topic + "/contacts", stamp.time, contactsMessage(info_, snapshot, tool, stamp));
+  if (!info_.tools[tool].joints.empty())
+  {
+    bag_.write(topic + "/measured_js", stamp.time, jointMessage(info_.tools[tool], state, stamp));
+  }
+  if (info_.tool_configs[tool].jaw)
+  {
+    bag_.write(topic + "/jaw/measured_js", stamp.time,
+               jawMessage(info_.tool_configs[tool], state, stamp));
+  }
 }
 
 void BagRecorder::close()

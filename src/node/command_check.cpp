@@ -17,7 +17,7 @@ const char* rejectionText(Rejection rejection)
     case Rejection::none:
       return "accepted";
     case Rejection::not_finite:
-      return "NaN or infinity in the pose";
+      return "NaN or infinity in it";
     case Rejection::not_unit:
       return "the quaternion's norm differs from 1 by more than 0.001";
     case Rejection::too_far:
@@ -28,6 +28,10 @@ const char* rejectionText(Rejection rejection)
       return "tf has no transform at the stamp";
     case Rejection::stamp_went_back:
       return "the stamp is older than the one before";
+    case Rejection::no_joint:
+      return "it has no position for a joint of the tool";
+    case Rejection::other_motion:
+      return "a link's frame is not where its joint can have it";
   }
   return "unknown";
 }

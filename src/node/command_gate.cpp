@@ -19,36 +19,46 @@ double watchdogNow()
 
 }  // namespace
 
-CommandGate::CommandGate(std::string tool, Sink sink, double watchdog_s)
-    : tool_(std::move(tool)), sink_(std::move(sink)), watchdog_s_(watchdog_s)
+CommandWatch::CommandWatch(std::string what, double watchdog_s)
+    : what_(std::move(what)), watchdog_s_(watchdog_s)
 {}
 
-void CommandGate::accept(const soft_tissue::Pose& X_WT, const ros::Time& stamp)
+void CommandWatch::countAccepted()
 {
-  sink_(X_WT, stamp.isZero() ? std::nullopt : std::make_optional(stamp.toSec()));
   last_accepted_s_ = watchdogNow();
   ++accepted_;
 }
 
-void CommandGate::reject(Rejection rejection, const std::string& detail)
+void CommandWatch::reject(Rejection rejection, const std::string& detail)
 {
   ++rejected_[static_cast<std::size_t>(rejection)];
+  warn("command rejected: " + std::string(rejectionText(rejection)) + (detail.empty() ? "" : ": ") +
+       detail + " (" + std::to_string(rejectedInAll()) + " rejected so far)");
+}
+
+void CommandWatch::noteLimit(const std::string& joint)
+{
+  ++limited_;
+  warn("joint '" + joint + "' is commanded beyond its limits and stays within them (" +
+       std::to_string(limited_) + " such commands so far)");
+}
+
+void CommandWatch::warn(const std::string& text)
+{
   const double now = ros::SteadyTime::now().toSec();
   if (last_warning_s_ < 0.0 || now - last_warning_s_ > kWarningPeriod)
   {
     last_warning_s_ = now;
-    ROS_WARN_STREAM("tool '" << tool_ << "': command rejected: " << rejectionText(rejection)
-                             << (detail.empty() ? "" : ": ") << detail << " (" << rejectedInAll()
-                             << " rejected so far)");
+    ROS_WARN_STREAM("tool '" << what_ << "': " << text);
   }
 }
 
-std::uint64_t CommandGate::rejected(Rejection rejection) const
+std::uint64_t CommandWatch::rejected(Rejection rejection) const
 {
   return rejected_[static_cast<std::size_t>(rejection)];
 }
 
-std::uint64_t CommandGate::rejectedInAll() const
+std::uint64_t CommandWatch::rejectedInAll() const
 {
   std::uint64_t sum = 0;
   for (const auto& count : rejected_)
@@ -58,13 +68,13 @@ std::uint64_t CommandGate::rejectedInAll() const
   return sum;
 }
 
-bool CommandGate::stale() const
+bool CommandWatch::stale() const
 {
   const double silent_s = silence();
   return accepted_ > 0 && (silent_s > watchdog_s_ || silent_s < 0.0);
 }
 
-double CommandGate::silence() const
+double CommandWatch::silence() const
 {
   return watchdogNow() - last_accepted_s_;
 }

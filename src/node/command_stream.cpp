@@ -23,38 +23,40 @@ constexpr double kJump = 0.2;
 constexpr double kAlways = std::numeric_limits<double>::lowest();
 }  // namespace
 
-void CommandStream::put(const soft_tissue::Pose& X_WT, std::optional<double> sent_s,
-                        double arrival_s)
+template <typename Sample>
+void CommandStream<Sample>::put(const Sample& command, std::optional<double> sent_s,
+                                double arrival_s)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!poses_.empty() && arrival_s < last_arrival_s_)
+  if (!commands_.empty() && arrival_s < last_arrival_s_)
   {
     keepOnlyNewest();
     offset_s_.reset();
   }
   double time_s = localTime(sent_s, arrival_s);
-  if (!poses_.empty())
+  if (!commands_.empty())
   {
-    time_s = std::max(time_s, poses_.times_s.back());
+    time_s = std::max(time_s, commands_.times_s.back());
     // Until this one came, steps could go no further than the one before.
-    const double needed_s = arrival_s - poses_.times_s.back();
+    const double needed_s = arrival_s - commands_.times_s.back();
     if (needed_s <= kLongestDelay)
     {
       delay_s_ = needed_s > delay_s_ ? needed_s : delay_s_ + kShorten * (needed_s - delay_s_);
     }
   }
   last_arrival_s_ = arrival_s;
-  poses_.times_s.push_back(time_s);
-  poses_.poses_W.push_back(X_WT);
-  if (poses_.times_s.size() > kKept)
+  commands_.times_s.push_back(time_s);
+  commands_.samples.push_back(command);
+  if (commands_.times_s.size() > kKept)
   {
-    poses_.times_s.erase(poses_.times_s.begin(), poses_.times_s.begin() + kKept / 2);
-    poses_.poses_W.erase(poses_.poses_W.begin(), poses_.poses_W.begin() + kKept / 2);
+    commands_.times_s.erase(commands_.times_s.begin(), commands_.times_s.begin() + kKept / 2);
+    commands_.samples.erase(commands_.samples.begin(), commands_.samples.begin() + kKept / 2);
   }
 }
 
 /** The sender's time on the loop's clock, never later than the arrival. */
-double CommandStream::localTime(std::optional<double> sent_s, double arrival_s)
+template <typename Sample>
+double CommandStream<Sample>::localTime(std::optional<double> sent_s, double arrival_s)
 {
   if (!sent_s)
   {
@@ -70,43 +72,50 @@ double CommandStream::localTime(std::optional<double> sent_s, double arrival_s)
   return *sent_s + *offset_s_;
 }
 
-std::optional<soft_tissue::Pose> CommandStream::at(double time_s)
+template <typename Sample>
+std::optional<Sample> CommandStream<Sample>::at(double time_s)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (poses_.empty())
+  if (commands_.empty())
   {
     return std::nullopt;
   }
   read_s_ = std::max(read_s_, time_s - delay_s_);  // a longer delay doesn't turn the tool back
-  return poses_.at(read_s_);
+  return commands_.at(read_s_);
 }
 
-std::optional<soft_tissue::Pose> CommandStream::newest()
+template <typename Sample>
+std::optional<Sample> CommandStream<Sample>::newest()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (poses_.empty())
+  if (commands_.empty())
   {
     return std::nullopt;
   }
   keepOnlyNewest();
-  return poses_.poses_W.back();
+  return commands_.samples.back();
 }
 
-void CommandStream::keepOnlyNewest()
+template <typename Sample>
+void CommandStream<Sample>::keepOnlyNewest()
 {
-  poses_.times_s = {kAlways};
-  poses_.poses_W = {poses_.poses_W.back()};
+  commands_.times_s = {kAlways};
+  commands_.samples = {commands_.samples.back()};
   read_s_ = kAlways;
 }
 
-void CommandStream::clear()
+template <typename Sample>
+void CommandStream<Sample>::clear()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  poses_ = soft_tissue::PoseSeries();
+  commands_ = {};
   offset_s_.reset();
   delay_s_ = 0.0;
   read_s_ = kAlways;
 }
+
+template class CommandStream<soft_tissue::Pose>;
+template class CommandStream<soft_tissue::JointValues>;
 
 double CommandClock::next(double now_s, double period_s)
 {

@@ -7,7 +7,7 @@ namespace
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
-void reportCommands(const CommandGate& gate, DiagnosticStatusWrapper& status)
+void reportCommands(const CommandWatch& gate, DiagnosticStatusWrapper& status)
 {
   if (gate.stale() && gate.silence() < 0.0)
   {
@@ -32,6 +32,9 @@ void reportCommands(const CommandGate& gate, DiagnosticStatusWrapper& status)
   status.add("rejected: quaternion not unit", gate.rejected(Rejection::not_unit));
   status.add("rejected: too far", gate.rejected(Rejection::too_far));
   status.add("rejected: stamp went back", gate.rejected(Rejection::stamp_went_back));
+  status.add("rejected: no such joint", gate.rejected(Rejection::no_joint));
+  status.add("rejected: not the joint's motion", gate.rejected(Rejection::other_motion));
+  status.add("beyond joint limits", gate.limited());
   status.add("tf failures: unknown frame", gate.rejected(Rejection::unknown_frame));
   status.add("tf failures: no transform at the stamp", gate.rejected(Rejection::no_transform));
 }
@@ -39,15 +42,15 @@ void reportCommands(const CommandGate& gate, DiagnosticStatusWrapper& status)
 }  // namespace
 
 Diagnostics::Diagnostics(const PhysicsLoop& loop, const SceneTopics& scene_topics,
-                         const std::deque<CommandGate>& gates)
+                         const std::vector<const CommandWatch*>& watches)
     : loop_(loop), scene_topics_(scene_topics)
 {
   updater_.setHardwareID("simulation");
   updater_.add("physics", this, &Diagnostics::reportPhysics);
-  for (const CommandGate& gate : gates)
+  for (const CommandWatch* watch : watches)
   {
-    updater_.add(gate.tool() + " commands",
-                 [&gate](DiagnosticStatusWrapper& status) { reportCommands(gate, status); });
+    updater_.add(watch->what() + " commands",
+                 [watch](DiagnosticStatusWrapper& status) { reportCommands(*watch, status); });
   }
 }
 

@@ -63,6 +63,11 @@ geometry_msgs::Transform transformMessage(const soft_tissue::Pose& X)
   return message;
 }
 
+soft_tissue::Vec3 vectorFromMessage(const geometry_msgs::Vector3& v)
+{
+  return {v.x, v.y, v.z};
+}
+
 soft_tissue::Pose poseFromMessage(const geometry_msgs::Pose& pose)
 {
   return poseFromParts(pose.position, pose.orientation);

@@ -43,6 +43,16 @@ struct Cut
 
 }  // namespace
 
+std_msgs::ColorRGBA rgb(double r, double g, double b, double opacity)
+{
+  std_msgs::ColorRGBA colour;
+  colour.r = static_cast<float>(r);
+  colour.g = static_cast<float>(g);
+  colour.b = static_cast<float>(b);
+  colour.a = static_cast<float>(opacity);
+  return colour;
+}
+
 visualization_msgs::Marker makeMarker(const std::string& ns, int type)
 {
   visualization_msgs::Marker marker;

@@ -13,6 +13,8 @@ namespace soft_tissue_sim
 /** A marker with identity pose, unit scale and opaque white colour. */
 visualization_msgs::Marker makeMarker(const std::string& ns, int type);
 
+std_msgs::ColorRGBA rgb(double r, double g, double b, double opacity = 1.0);
+
 /** Opaque colour on a scale from tissue red over orange to yellow. @param value  in [0, 1], else
  * clamped */
 std_msgs::ColorRGBA tissueColour(double value);

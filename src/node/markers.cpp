@@ -22,18 +22,7 @@ using visualization_msgs::Marker;
 constexpr double kFixedNodeSize = 0.002;               // m
 constexpr double kFieldNodeSize = 0.0012;              // m
 constexpr double kLongestContact = 0.015;              // m
-constexpr double kToolOpacity = 0.35;                  // the arrows of its contacts show through
 constexpr double kSmallestDisplacementScale = 1.0e-3;  // m: an idle tissue is not painted by noise
-
-std_msgs::ColorRGBA rgb(double r, double g, double b, double opacity = 1.0)
-{
-  std_msgs::ColorRGBA colour;
-  colour.r = static_cast<float>(r);
-  colour.g = static_cast<float>(g);
-  colour.b = static_cast<float>(b);
-  colour.a = static_cast<float>(opacity);
-  return colour;
-}
 
 Marker tissueSurface(const TissueInfo& info, const soft_tissue::TissueState& state,
                      const MarkerOptions& options)
@@ -150,6 +139,13 @@ void addContactArrows(const std::string& ns, std::size_t first_id,
   }
 }
 
+/** Whether it is drawn from its points. */
+bool isList(const Marker& marker)
+{
+  return marker.type == Marker::TRIANGLE_LIST ||
+         (marker.type >= Marker::LINE_STRIP && marker.type <= Marker::POINTS);
+}
+
 Marker forceArrow(const std::string& ns, const ToolState& tool, double metres_per_newton)
 {
   const Vec3 from = tool.X_WT.translation();
@@ -178,19 +174,9 @@ MarkerBuilder::MarkerBuilder(const SceneInfo& info, const MarkerOptions& options
     }
     slice_offset_m_.push_back(low + options.slice_fraction * (high - low));
   }
-  for (const soft_tissue::ToolInfo& tool : info.tools)
+  for (std::size_t i = 0; i < info.tools.size(); ++i)
   {
-    Marker marker = makeMarker(tool.name, Marker::TRIANGLE_LIST);
-    const std::vector<Vec3> normals = nodeNormals(tool.surface.nodes, tool.surface.triangles);
-    for (const soft_tissue::Triangle& triangle : tool.surface.triangles)
-    {
-      for (const Index node : triangle)
-      {
-        addCorner(marker, tool.surface.nodes[node],
-                  lit(rgb(0.75, 0.78, 0.82, kToolOpacity), normals[node]));
-      }
-    }
-    tools_.push_back(marker);
+    tools_.push_back(toolLooks(info.tools[i], info.tool_configs[i]));
   }
 }
 
@@ -217,8 +203,13 @@ visualization_msgs::MarkerArray MarkerBuilder::build(const Snapshot& snapshot, T
   for (std::size_t i = 0; i < info_.tools.size(); ++i)
   {
     const ToolState& tool = snapshot.tools[i];
-    array.markers.push_back(tools_[i]);
-    array.markers.back().pose = poseMessage(tool.X_WT);
+    const soft_tissue::ToolConfig& config = info_.tool_configs[i];
+    for (const ToolLook& look : tools_[i])
+    {
+      const soft_tissue::Pose X_TL = config.linkage.pose(config.frame, look.link, tool.joints);
+      array.markers.push_back(look.marker);
+      array.markers.back().pose = poseMessage(tool.X_WT * X_TL * look.X_LM);
+    }
     addContactArrows(info_.tools[i].name + "/contacts", 0, tool.contacts, array.markers);
     array.markers.push_back(
         forceArrow(info_.tools[i].name + "/force", tool, options_.force_scale_m_per_n));
@@ -232,8 +223,7 @@ visualization_msgs::MarkerArray MarkerBuilder::build(const Snapshot& snapshot, T
   {
     marker.header.frame_id = stamp.world_frame;
     marker.header.stamp = stamp.time;
-    const bool drawn_from_points = marker.type != Marker::ARROW;
-    if (drawn_from_points && marker.points.empty())
+    if (isList(marker) && marker.points.empty())
     {
       marker.action = Marker::DELETE;  // rviz complains of empty lists
     }

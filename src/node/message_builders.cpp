@@ -1,6 +1,7 @@
 #include "soft_tissue_sim/node/message_builders.h"
 
 #include "soft_tissue_sim/node/geometry_conversions.h"
+#include "soft_tissue_sim/node/joint_inputs.h"
 
 namespace soft_tissue_sim
 {
@@ -102,6 +103,29 @@ geometry_msgs::PoseStamped toolPoseMessage(const ToolState& tool, const Stamp& s
   return message;
 }
 
+sensor_msgs::JointState jointMessage(const soft_tissue::ToolInfo& info, const ToolState& tool,
+                                     const Stamp& stamp)
+{
+  sensor_msgs::JointState message;
+  message.header.stamp = stamp.time;
+  for (const soft_tissue::Coordinate& joint : info.joints)
+  {
+    message.name.push_back(joint.name);
+  }
+  message.position.assign(tool.joints.data(), tool.joints.data() + tool.joints.size());
+  return message;
+}
+
+sensor_msgs::JointState jawMessage(const soft_tissue::ToolConfig& config, const ToolState& tool,
+                                   const Stamp& stamp)
+{
+  sensor_msgs::JointState message;
+  message.header.stamp = stamp.time;
+  message.name = {"jaw"};
+  message.position = {jawPosition(config, tool.joints)};
+  return message;
+}
+
 geometry_msgs::WrenchStamped bodyWrenchMessage(const ToolState& tool, const std::string& tool_name,
                                                const Stamp& stamp)
 {
@@ -127,8 +151,13 @@ ToolContacts contactsMessage(const SceneInfo& info, const Snapshot& snapshot, st
   setHeader(message.header, stamp);
   message.name = info.tools[tool].name;
   message.tissue_names = info.tissue_names;
+  for (const soft_tissue::ToolPartInfo& part : info.tools[tool].parts)
+  {
+    message.part_names.push_back(part.name);
+  }
   for (const soft_tissue::ContactPoint& contact : snapshot.tools[tool].contacts)
   {
+    message.parts.push_back(static_cast<std::uint32_t>(contact.part));
     message.tissues.push_back(static_cast<std::uint32_t>(contact.tissue));
     appendContact(contact, message);
   }

@@ -77,7 +77,7 @@ NodeParams readNodeParams(const ros::NodeHandle& private_node)
   reader.read("threads", params.threads, 0, 1024);
   reader.read("frame_id", params.world_frame);
   reader.read("publish_clock", params.publish_clock);
-  reader.read("watchdog_s", params.watchdog_s, 1.0e-3, kInfinity);
+  reader.read("watchdog_s", params.loop.watchdog_s, 1.0e-3, kInfinity);
   reader.read("command_wait_s", params.command_wait_s, 0.0, 10.0);
   reader.read("tf_poll_hz", params.tf_poll_hz, 1.0, 1.0e4);
   reader.read("real_time_factor", params.loop.real_time_factor, 0.0, 1.0e3);

@@ -107,9 +107,11 @@ bool PhysicsLoop::stepIfDue()
   if (counters_.clock_jumps_back != schedule_.jumpsBack())
   {
     counters_.clock_jumps_back = schedule_.jumpsBack();
-    for (CommandStream& commands : commands_)
+    for (ToolCommands& commands : commands_)
     {
-      commands.newest();  // which is later than all times now
+      commands.pose.newest();  // which is later than all times now
+      commands.joints.newest();
+      commands.jaw.newest();
     }
   }
   if (due)
@@ -133,7 +135,24 @@ bool PhysicsLoop::clockHasStarted()
 void PhysicsLoop::command(std::size_t tool, const soft_tissue::Pose& X_WT,
                           std::optional<double> sent_s)
 {
-  commands_[tool].put(X_WT, sent_s, clockNow());
+  commands_[tool].pose.put(X_WT, sent_s, clockNow());
+}
+
+void PhysicsLoop::commandTwist(std::size_t tool, const Twist& twist)
+{
+  commands_[tool].twist.put(twist, clockNow());
+}
+
+void PhysicsLoop::commandJoints(std::size_t tool, const soft_tissue::JointValues& values,
+                                std::optional<double> sent_s)
+{
+  commands_[tool].joints.put(values, sent_s, clockNow());
+}
+
+void PhysicsLoop::commandJaw(std::size_t tool, const soft_tissue::JointValues& values,
+                             std::optional<double> sent_s)
+{
+  commands_[tool].jaw.put(values, sent_s, clockNow());
 }
 
 /** Tells the scene where tools go; at_once: to the last commands, as nothing paces the steps. */
@@ -144,11 +163,27 @@ void PhysicsLoop::aimTools(bool at_once)
                             : command_clock_.next(clockNow(), schedule_.period());
   for (std::size_t tool = 0; tool < commands_.size(); ++tool)
   {
-    const std::optional<soft_tissue::Pose> X_WT =
-        at_once ? commands_[tool].newest() : commands_[tool].at(time_s);
-    if (X_WT)
+    aimTool(tool, at_once ? std::nullopt : std::make_optional(time_s));
+  }
+}
+
+void PhysicsLoop::aimTool(std::size_t tool, std::optional<double> time_s)
+{
+  ToolCommands& commands = commands_[tool];
+  const auto read = [&](auto& stream) { return time_s ? stream.at(*time_s) : stream.newest(); };
+  if (const auto twist = commands.twist.at(clockNow(), config_.watchdog_s))
+  {
+    scene_.setToolTarget(tool, moved(scene_.toolPose(tool), *twist, scene_.config().time_step_s));
+  }
+  if (const auto X_WT = read(commands.pose))
+  {
+    scene_.setToolTarget(tool, *X_WT);
+  }
+  for (JointStream* stream : {&commands.joints, &commands.jaw})
+  {
+    if (const auto values = read(*stream))
     {
-      scene_.setToolTarget(tool, *X_WT);
+      scene_.setJointTargets(tool, *values);
     }
   }
 }
@@ -226,14 +261,31 @@ std::optional<double> PhysicsLoop::step(std::uint32_t steps)
 void PhysicsLoop::resetWorld()
 {
   execute([this] {
-    for (CommandStream& commands : commands_)
+    for (ToolCommands& commands : commands_)
     {
-      commands.clear();
+      commands.pose.clear();
+      commands.twist.clear();
+      commands.joints.clear();
+      commands.jaw.clear();
     }
     scene_.resetWorld();
     ++resets_;
     publishFrame();
   });
+}
+
+int PhysicsLoop::attach(const soft_tissue::AttachRequest& request)
+{
+  int count = 0;
+  execute([&] { count = scene_.attach(request); });
+  return count;
+}
+
+int PhysicsLoop::detach(std::size_t tool, std::optional<std::size_t> part)
+{
+  int count = 0;
+  execute([&] { count = scene_.detach(tool, part); });
+  return count;
 }
 
 void PhysicsLoop::execute(std::function<void()> task)

@@ -8,6 +8,7 @@
 
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/node/scene_loader.h"
+#include "soft_tissue_sim/node/scratch_folder.h"
 
 namespace soft_tissue_sim
 {
@@ -26,14 +27,35 @@ soft_tissue::PoseConfig poseConfig(const soft_tissue::Pose& X)
   return config;
 }
 
-/** Tools start where the bag has them first, instead of jumping there. */
+void placeJoints(const soft_tissue::JointValues& values, ToolConfig& tool)
+{
+  const auto zero = soft_tissue::JointValues::Zero(values.size());
+  const soft_tissue::JointValues inside = tool.linkage.within(values, zero);
+  for (Eigen::Index k = 0; k < values.size(); ++k)
+  {
+    if (!std::isnan(values[k]))
+    {
+      tool.initial_joints.push_back(
+          {tool.linkage.coordinates()[static_cast<std::size_t>(k)].name, inside[k]});
+    }
+  }
+}
+
+/** Tools and joints start where the bag has them first, instead of jumping there. */
 void placeTools(SceneConfig& config, const BagPoses& poses)
 {
   for (std::size_t tool = 0; tool < config.tools.size(); ++tool)
   {
     if (!poses.tools[tool].empty())
     {
-      config.tools[tool].initial_pose = poseConfig(poses.tools[tool].poses_W.front());
+      config.tools[tool].initial_pose = poseConfig(poses.tools[tool].samples.front());
+    }
+    for (const soft_tissue::JointSeries* values : {&poses.joints[tool], &poses.jaws[tool]})
+    {
+      if (!values->empty())
+      {
+        placeJoints(values->samples.front(), config.tools[tool]);
+      }
     }
   }
 }
@@ -44,6 +66,10 @@ double lastKeyframe(const SceneConfig& config)
   for (const ToolConfig& tool : config.tools)
   {
     for (const soft_tissue::PoseKeyframe& keyframe : tool.pose_source.keyframes)
+    {
+      last = std::max(last, keyframe.time_s);
+    }
+    for (const soft_tissue::JointKeyframe& keyframe : tool.joint_source.keyframes)
     {
       last = std::max(last, keyframe.time_s);
     }
@@ -72,6 +98,13 @@ void setTargets(soft_tissue::Scene& scene, const BagPoses& poses, double time_s)
     {
       scene.setToolTarget(tool, poses.tools[tool].at(time_s));
     }
+    for (const soft_tissue::JointSeries* values : {&poses.joints[tool], &poses.jaws[tool]})
+    {
+      if (!values->empty())
+      {
+        scene.setJointTargets(tool, values->at(time_s));
+      }
+    }
   }
 }
 
@@ -83,6 +116,8 @@ Replay readReplay(const RunOptions& options)
   soft_tissue::setThreadCount(options.threads > 0 ? options.threads : processors);
   Replay replay;
   replay.config = loadConfig(options.scene);
+  const ScratchFolder scratch;
+  readUrdfs(replay.config, scratch);  // the bag's joints are those of their linkages
   if (!options.bag_in.empty())
   {
     replay.poses = readBagPoses(options.bag_in, replay.config.tools, options.world_frame);

@@ -23,7 +23,7 @@ std::uint64_t topologyId(const soft_tissue::TissueInfo& tissue)
 }  // namespace
 
 SceneInfo::SceneInfo(const soft_tissue::Scene& scene)
-    : tissues(scene.tissues()), tools(scene.tools())
+    : tissues(scene.tissues()), tools(scene.tools()), tool_configs(scene.config().tools)
 {
   for (const soft_tissue::TissueInfo& tissue : tissues)
   {

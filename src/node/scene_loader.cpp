@@ -5,7 +5,7 @@
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/node/package_resolver.h"
 #include "soft_tissue_sim/node/scratch_folder.h"
-#include "soft_tissue_sim/node/urdf_shapes.h"
+#include "soft_tissue_sim/node/urdf_tool.h"
 
 namespace soft_tissue_sim
 {
@@ -14,9 +14,8 @@ soft_tissue::SceneConfig loadConfig(const std::string& path)
   return soft_tissue::loadSceneConfig(path, &findPackage);
 }
 
-soft_tissue::Scene buildScene(soft_tissue::SceneConfig config)
+void readUrdfs(soft_tissue::SceneConfig& config, const ScratchFolder& scratch)
 {
-  const ScratchFolder scratch;
   for (soft_tissue::ToolConfig& tool : config.tools)
   {
     if (!tool.urdf)
@@ -27,15 +26,20 @@ soft_tissue::Scene buildScene(soft_tissue::SceneConfig config)
     {
       const std::string folder = scratch.path() + "/" + tool.name;
       std::filesystem::create_directories(folder);
-      tool.shapes = shapesFromUrdf(*tool.urdf, folder);
+      readUrdf(tool, folder);
     }
     catch (const soft_tissue::Error& error)
     {
       throw soft_tissue::Error("scene " + config.file + ": tool '" + tool.name +
                                "': " + error.what());
     }
-    tool.urdf.reset();
   }
+}
+
+soft_tissue::Scene buildScene(soft_tissue::SceneConfig config)
+{
+  const ScratchFolder scratch;
+  readUrdfs(config, scratch);
   return soft_tissue::Scene(config);
 }
 

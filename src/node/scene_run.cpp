@@ -138,6 +138,13 @@ bool runScene(const RunOptions& options, const std::atomic<bool>* interrupted)
       std::fprintf(stderr, "note: %s\n", remark.c_str());
     }
   }
+  for (const soft_tissue::ToolConfig& tool : scene.config().tools)
+  {
+    for (const std::string& remark : tool.remarks)
+    {
+      std::fprintf(stderr, "note: tool '%s': %s\n", tool.name.c_str(), remark.c_str());
+    }
+  }
   const SceneInfo info(scene);
   Recorders recorders{RunSummary(replay.config, info), nullptr, nullptr, nullptr};
   if (!options.bag_out.empty())

@@ -6,14 +6,6 @@
 
 namespace soft_tissue_sim
 {
-namespace
-{
-using Kind = soft_tissue::PoseSourceConfig::Kind;
-
-constexpr double kTfPatience = 2.0;  // s: nodes that start together don't start at once
-
-}  // namespace
-
 SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene)
     : node_(node),
       params_(params),
@@ -23,62 +15,31 @@ SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tis
       depths_(info_, config_),
       publisher_(loop_.frames())
 {
-  addInputs(config_.tools);
+  try
+  {
+    inputs_ = std::make_unique<Inputs>(node_, params_, info_, loop_);
+  }
+  catch (const soft_tissue::Error& error)
+  {
+    throw soft_tissue::Error("scene " + config_.file + ": " + error.what());
+  }
   addOutputs();
   diagnostics_timer_ = node_.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
   publisher_.start();
   loop_.start();
   services_ = std::make_unique<SimServices>(node_, loop_);
+  attach_services_ = std::make_unique<AttachServices>(node_, info_, loop_);
 }
 
 SimNode::~SimNode()
 {
-  input_timer_.stop();
   diagnostics_timer_.stop();
   loop_.stop();
   services_.reset();
+  attach_services_.reset();
   publisher_.stop();
-}
-
-void SimNode::addInputs(const std::vector<soft_tissue::ToolConfig>& tools)
-{
-  for (std::size_t tool = 0; tool < tools.size(); ++tool)
-  {
-    const soft_tissue::PoseSourceConfig& source = tools[tool].pose_source;
-    if (source.kind == Kind::keyframes)
-    {
-      continue;
-    }
-    if (!listener_)
-    {
-      listener_ = std::make_unique<TfListener>(buffer_);
-    }
-    CommandGate& gate = gates_.emplace_back(
-        tools[tool].name,
-        [this, tool](const soft_tissue::Pose& X_WT, std::optional<double> sent_s) {
-          loop_.command(tool, X_WT, sent_s);
-        },
-        params_.watchdog_s);
-    if (source.kind == Kind::topic)
-    {
-      topic_inputs_.emplace_back(node_, tools[tool].name + "/" + source.name, gate, buffer_,
-                                 params_.world_frame, params_.command_wait_s);
-      continue;
-    }
-    for (const soft_tissue::ToolConfig& other : tools)
-    {
-      if (source.name == other.name)
-      {
-        throw soft_tissue::Error("scene " + config_.file + ": tool '" + tools[tool].name +
-                                 "' follows the tf frame '" + source.name +
-                                 "', which is a frame this node broadcasts itself");
-      }
-    }
-    tf_inputs_.emplace_back(source.name, gate, buffer_, params_.world_frame, kTfPatience);
-  }
-  input_timer_ = node_.createWallTimer(ros::WallDuration(1.0 / params_.tf_poll_hz),
-                                       [this](const ros::WallTimerEvent&) { pollInputs(); });
+  inputs_.reset();
 }
 
 void SimNode::addOutputs()
@@ -91,8 +52,9 @@ void SimNode::addOutputs()
                                                 params_.publish_clock, world, on_subscriber);
   distances_ = std::make_unique<DistanceService>(node_, info_, world);
   publisher_.addStream(0.0, [this](const Frame& frame) { distances_->note(frame); });
-  diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, gates_);
+  diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, inputs_->watches());
   publisher_.addStream(0.0, [this](const Frame& frame) { diagnostics_->note(frame); });
+  publisher_.addStream(0.0, [this](const Frame& frame) { inputs_->note(frame); });
   if (params_.publish_clock)
   {
     publisher_.addStream(0.0, [this](const Frame& frame) { scene_topics_->publishClock(frame); });
@@ -117,18 +79,6 @@ void SimNode::addOutputs()
                        [this](const Frame& frame) { scene_topics_->publishStats(frame); });
   publisher_.addStream(rates.marker_hz,
                        [this](const Frame& frame) { scene_topics_->publishMarkers(frame); });
-}
-
-void SimNode::pollInputs()
-{
-  for (TopicInput& input : topic_inputs_)
-  {
-    input.poll();
-  }
-  for (TfInput& input : tf_inputs_)
-  {
-    input.poll();
-  }
 }
 
 void SimNode::onFailure(const std::string& what)

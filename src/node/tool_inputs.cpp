@@ -2,110 +2,48 @@
 
 #include <utility>
 
-#include "soft_tissue_sim/node/geometry_conversions.h"
-
 namespace soft_tissue_sim
 {
-namespace
+Rejection PoseInput::check(const geometry_msgs::PoseStamped& command) const
 {
-constexpr std::size_t kMaxWaiting = 200;
-}  // namespace
-
-TopicInput::TopicInput(ros::NodeHandle& node, const std::string& topic, CommandGate& gate,
-                       const tf2_ros::Buffer& buffer, std::string world_frame, double wait_s)
-    : gate_(gate),
-      buffer_(buffer),
-      world_frame_(std::move(world_frame)),
-      wait_s_(wait_s),
-      subscriber_(node.subscribe(topic, 1, &TopicInput::onCommand, this,
-                                 ros::TransportHints().tcpNoDelay()))
-{}
-
-void TopicInput::onCommand(const geometry_msgs::PoseStamped::ConstPtr& command)
-{
-  if (gate_.stale())
-  {
-    order_.restart();
-  }
-  const Rejection rejection = checkPose(command->pose);
-  if (rejection != Rejection::none)
-  {
-    gate_.reject(rejection, "");
-    return;
-  }
-  if (!order_.accepts(command->header.stamp))
-  {
-    gate_.reject(Rejection::stamp_went_back, "");
-    return;
-  }
-  const Resolved resolved = resolve(*command, wait_s_ > 0.0);
-  if (resolved != Resolved::refused)
-  {
-    order_.accept(command->header.stamp, ros::Time::now());
-  }
-  if (resolved == Resolved::not_yet)
-  {
-    if (waiting_.size() == kMaxWaiting)
-    {
-      gate_.reject(Rejection::no_transform, "too many commands wait for tf");
-      waiting_.pop_front();
-    }
-    waiting_.push_back({command, ros::SteadyTime::now().toSec()});
-  }
+  return checkPose(command.pose);
 }
 
-void TopicInput::poll()
+Rejection PoseInput::take(const geometry_msgs::PoseStamped& command, const soft_tissue::Pose& X_WF)
 {
-  const double now = ros::SteadyTime::now().toSec();
-  while (!waiting_.empty())
+  const soft_tissue::Pose X_WT = X_WF * poseFromMessage(command.pose);
+  const Rejection rejection = checkPose(poseMessage(X_WT));
+  if (rejection == Rejection::none)
   {
-    const bool may_wait = now - waiting_.front().since_s < wait_s_;
-    if (resolve(*waiting_.front().command, may_wait) == Resolved::not_yet)
-    {
-      return;
-    }
-    waiting_.pop_front();
+    gate_.accept(X_WT, command.header.stamp);
   }
+  return rejection;
 }
 
-TopicInput::Resolved TopicInput::resolve(const geometry_msgs::PoseStamped& command, bool may_wait)
+Rejection TwistInput::check(const geometry_msgs::TwistStamped& command) const
 {
-  const std::string& frame = command.header.frame_id;
-  soft_tissue::Pose X_WT = poseFromMessage(command.pose);
-  if (!frame.empty() && frame != world_frame_)
-  {
-    try
-    {
-      const geometry_msgs::TransformStamped X_WF =
-          buffer_.lookupTransform(world_frame_, frame, command.header.stamp);
-      X_WT = poseFromMessage(X_WF.transform) * X_WT;
-    }
-    catch (const tf2::ExtrapolationException& error)
-    {
-      if (may_wait)
-      {
-        return Resolved::not_yet;
-      }
-      gate_.reject(Rejection::no_transform, error.what());
-      return Resolved::refused;
-    }
-    catch (const tf2::TransformException& error)
-    {
-      gate_.reject(Rejection::unknown_frame, error.what());
-      return Resolved::refused;
-    }
-    const Rejection rejection = checkPose(poseMessage(X_WT));
-    if (rejection != Rejection::none)
-    {
-      gate_.reject(rejection, "in the world frame");
-      return Resolved::refused;
-    }
-  }
-  gate_.accept(X_WT, command.header.stamp);
-  return Resolved::yes;
+  const soft_tissue::Vec3 linear = vectorFromMessage(command.twist.linear);
+  const soft_tissue::Vec3 angular = vectorFromMessage(command.twist.angular);
+  return linear.allFinite() && angular.allFinite() ? Rejection::none : Rejection::not_finite;
 }
 
-TfInput::TfInput(std::string frame, CommandGate& gate, const tf2_ros::Buffer& buffer,
+bool TwistInput::isKnown(const std::string& frame) const
+{
+  return frame == tool_frame_ || StampedInput::isKnown(frame);
+}
+
+Rejection TwistInput::take(const geometry_msgs::TwistStamped& command,
+                           const soft_tissue::Pose& X_WF)
+{
+  Twist twist;
+  twist.linear = X_WF.linear() * vectorFromMessage(command.twist.linear);
+  twist.angular = X_WF.linear() * vectorFromMessage(command.twist.angular);
+  twist.in_own_axes = command.header.frame_id == tool_frame_;
+  gate_.accept(twist, command.header.stamp);
+  return Rejection::none;
+}
+
+TfInput::TfInput(std::string frame, PoseGate& gate, const tf2_ros::Buffer& buffer,
                  std::string world_frame, double patience_s)
     : frame_(std::move(frame)),
       gate_(gate),

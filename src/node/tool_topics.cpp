@@ -16,6 +16,14 @@ ToolTopics::ToolTopics(ros::NodeHandle& node, const SceneInfo& info, std::size_t
   spatial_wrench_ =
       node.advertise<geometry_msgs::WrenchStamped>(name + "/spatial/measured_cf", 1, on_subscriber);
   contacts_ = node.advertise<ToolContacts>(name + "/contacts", 1, on_subscriber);
+  if (!info.tools[tool].joints.empty())
+  {
+    joints_ = node.advertise<sensor_msgs::JointState>(name + "/measured_js", 1, on_subscriber);
+  }
+  if (info.tool_configs[tool].jaw)
+  {
+    jaw_ = node.advertise<sensor_msgs::JointState>(name + "/jaw/measured_js", 1, on_subscriber);
+  }
 }
 
 void ToolTopics::publish(const Frame& frame)
@@ -38,6 +46,14 @@ void ToolTopics::publish(const Frame& frame)
   if (contacts_.getNumSubscribers() > 0)
   {
     contacts_.publish(contactsMessage(info_, frame.snapshot, tool_, stamp));
+  }
+  if (joints_ && joints_.getNumSubscribers() > 0)
+  {
+    joints_.publish(jointMessage(info_.tools[tool_], tool, stamp));
+  }
+  if (jaw_ && jaw_.getNumSubscribers() > 0)
+  {
+    jaw_.publish(jawMessage(info_.tool_configs[tool_], tool, stamp));
   }
 }
 

@@ -301,20 +301,33 @@ double innerRadius(const TetMesh& rest, const BoundarySurface& surface)
   return std::sqrt(squared);
 }
 
-RigidBodyShape makeToolShape(const ToolConfig& config, const std::string& where)
+std::vector<ToolPartModel> makeToolParts(const ToolConfig& config, const std::string& where)
 {
-  RigidBodyShape body;
+  const Linkage& linkage = config.linkage;
+  const JointValues any =
+      JointValues::Zero(static_cast<Eigen::Index>(linkage.coordinates().size()));
+  std::vector<ToolPartModel> parts;
   for (std::size_t k = 0; k < config.shapes.size(); ++k)
   {
+    const ShapeConfig& shape = config.shapes[k];
     const std::string name =
         config.shapes.size() > 1 ? indexed(where, "shapes", k) : where + ".shape";
-    body.add(makeShape(config.shapes[k].geometry, name), config.shapes[k].origin.toPose());
+    const std::size_t carrier = linkage.carrier(shape.link);
+    auto part = std::find_if(parts.begin(), parts.end(),
+                             [&](const ToolPartModel& one) { return one.link == carrier; });
+    if (part == parts.end())
+    {
+      const std::string& link = linkage.links()[shape.link].name;
+      part = parts.insert(parts.end(), {link.empty() ? config.name : link, carrier, {}});
+    }
+    part->shape.add(makeShape(shape.geometry, name),
+                    linkage.pose(carrier, shape.link, any) * shape.origin.toPose());
   }
-  if (body.empty())
+  if (parts.empty())
   {
     throw Error(where + " has no shape");
   }
-  return body;
+  return parts;
 }
 
 }  // namespace soft_tissue

@@ -62,7 +62,15 @@ double edgeLength(const TissueInfo& tissue, double share);
  * tet's middle from the boundary. */
 double innerRadius(const TetMesh& rest, const BoundarySurface& surface);
 
-/** The tool's solids in its own frame. @throws Error for a bad mesh or size */
-RigidBodyShape makeToolShape(const ToolConfig& config, const std::string& where);
+/** Solids of a tool that always keep their places to each other. */
+struct ToolPartModel
+{
+  std::string name;
+  std::size_t link = 0;  ///< of the tool's linkage: their frame
+  RigidBodyShape shape;
+};
+
+/** The tool's solids. @throws Error for a bad mesh or size */
+std::vector<ToolPartModel> makeToolParts(const ToolConfig& config, const std::string& where);
 
 }  // namespace soft_tissue

@@ -30,12 +30,8 @@ void Scene::Impl::resetWorld()
   setOff();
   for (std::size_t k = 0; k < tools_.size(); ++k)
   {
-    Tool& tool = tools_[k];
-    tool.X_WT =
-        tool.track.empty() ? config_.tools[k].initial_pose.toPose() : tool.track.at(report_.time_s);
-    tool.X_WT_goal = tool.X_WT;
-    tool.state = ToolState();
-    tool.state.X_WT = tool.X_WT;
+    detach(k, std::nullopt);
+    placeTool(k);
   }
   for (Obstacle& obstacle : obstacles_)
   {
@@ -119,6 +115,15 @@ std::uint64_t Scene::Impl::stateHash() const
   for (const Tool& tool : tools_)
   {
     hash.add(tool.X_WT.data(), 16 * sizeof(double));
+    hash.add(tool.joints.data(), tool.joints.size() * sizeof(double));
+  }
+  for (const Attachment& attached : attachments_)
+  {
+    hash.addValue(attached.tool);
+    hash.addValue(attached.part);
+    hash.addValue(attached.row);
+    hash.add(attached.place_P.data(), sizeof(Vec3));
+    hash.addValue(attached.stiffness);
   }
   return hash.value();
 }
@@ -181,6 +186,11 @@ const std::vector<ObstacleInfo>& Scene::obstacles() const
   return impl_->obstacle_info_;
 }
 
+const Pose& Scene::toolPose(std::size_t tool) const
+{
+  return impl_->tools_.at(tool).X_WT;
+}
+
 double Scene::time() const
 {
   return impl_->report_.time_s;
@@ -188,7 +198,22 @@ double Scene::time() const
 
 void Scene::setToolTarget(std::size_t tool, const Pose& X_WT)
 {
-  impl_->tools_.at(tool).X_WT_goal = X_WT;
+  impl_->tools_.at(tool).X_WT_target = X_WT;
+}
+
+void Scene::setJointTargets(std::size_t tool, const JointValues& values)
+{
+  impl_->setJointTargets(tool, values);
+}
+
+int Scene::attach(const AttachRequest& request)
+{
+  return impl_->attach(request);
+}
+
+int Scene::detach(std::size_t tool, std::optional<std::size_t> part)
+{
+  return impl_->detach(tool, part);
 }
 
 const StepReport& Scene::step()

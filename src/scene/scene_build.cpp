@@ -103,7 +103,7 @@ Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, const SoftBodyM
     for (const PoseKeyframe& keyframe : motion)
     {
       moved.track.times_s.push_back(keyframe.time_s);
-      moved.track.poses_W.push_back(keyframe.pose.toPose());
+      moved.track.samples.push_back(keyframe.pose.toPose());
     }
     moved_.push_back(std::move(moved));
   }
@@ -218,29 +218,6 @@ void Scene::Impl::makeSolver()
   newton_options_.max_iterations = config_.solver.max_iterations;
   newton_options_.settled =
       tissue_info_.empty() ? 0.0 : kSettled * config_.solver.tolerance * smallestSize(tissue_info_);
-}
-
-void Scene::Impl::addTool(std::size_t index)
-{
-  const ToolConfig& tool_config = config_.tools[index];
-  Tool tool;
-  tool.shape = makeToolShape(tool_config, item(config_, "tools", index));
-  tool.X_WT = tool_config.initial_pose.toPose();
-  if (tool_config.pose_source.kind == PoseSourceConfig::Kind::keyframes)
-  {
-    for (const PoseKeyframe& keyframe : tool_config.pose_source.keyframes)
-    {
-      tool.track.times_s.push_back(keyframe.time_s);
-      tool.track.poses_W.push_back(keyframe.pose.toPose());
-    }
-    tool.X_WT = tool.track.at(0.0);
-  }
-  tool.X_WT_goal = tool.X_WT;
-  tool.state.X_WT = tool.X_WT;
-  SurfaceMesh surface = tool.shape.surface(0.5 * tool.shape.innerRadius());
-  tool_info_.push_back(
-      {tool_config.name, {std::move(surface.nodes), std::move(surface.triangles)}});
-  tools_.push_back(std::move(tool));
 }
 
 }  // namespace soft_tissue

@@ -62,13 +62,32 @@ ContactPoint pointOf(const FrictionForce& force, std::size_t tissue)
 {
   return {force.position, force.normal, 0.0, 0.0, force.on_first, static_cast<Index>(tissue), -1};
 }
+
+/** The wrenches that the contacts of a tool make, on its parts and altogether. */
+void addUp(const Vec3& origin_W, ToolState& state)
+{
+  state.wrench_W = Wrench();
+  for (ToolPartState& part : state.parts)
+  {
+    part.wrench_W = Wrench();
+  }
+  for (const ContactPoint& point : state.contacts)
+  {
+    const Vec3 torque = (point.position_W - origin_W).cross(point.force_W);
+    for (Wrench* sum : {&state.wrench_W, &state.parts[point.part].wrench_W})
+    {
+      sum->force += point.force_W;
+      sum->torque += torque;
+    }
+  }
+}
 }  // namespace
 
 /** In how many parts the step has to be taken so that no body gets deeper into another in one of
  * them than it finds the way out of. */
 int Scene::Impl::partsOfStep() const
 {
-  double parts = 1.0;
+  double parts = motionOfAttached();
   for (const Contact& contact : contacts_)
   {
     if (sleeps(contact))
@@ -81,6 +100,25 @@ int Scene::Impl::partsOfStep() const
     parts = std::max(parts, moved / mostMotion(contact));
   }
   return static_cast<int>(std::ceil(std::min(parts, kMostParts)));
+}
+
+/** How far parts of tools that tissue is tied to move in this step, in the radius of a ball inside
+ * them; at least 1. */
+double Scene::Impl::motionOfAttached() const
+{
+  double most = 1.0;
+  for (const Tool& tool : tools_)
+  {
+    for (const ToolPart& part : tool.parts)
+    {
+      if (part.attached > 0)
+      {
+        most = std::max(most, farthestMotion(part.shape.bounds(), part.X_WP, part.X_WP_goal) /
+                                  (kMostMotion * part.shape.innerRadius()));
+      }
+    }
+  }
+  return most;
 }
 
 double Scene::Impl::mostMotion(const Contact& contact) const
@@ -104,16 +142,16 @@ double Scene::Impl::motionOfTissue(std::size_t index, const Vec3& drift, Box3& r
 /** How far a tool and a tissue move past each other in this step, m; 0 where they don't meet. */
 double Scene::Impl::motionOfTool(const Contact& contact) const
 {
-  const Tool& tool = tools_[contact.other];
+  const ToolPart& part = partOf(contact);
   Box3 tissue;
   const double own = motionOfTissue(contact.tissue, Vec3::Zero(), tissue);
-  const double moved = farthestMotion(tool.shape.bounds(), tool.X_WT, tool.X_WT_goal) + own;
+  const double moved = farthestMotion(part.shape.bounds(), part.X_WP, part.X_WP_goal) + own;
   if (!(moved > mostMotion(contact)))
   {
     return 0.0;
   }
-  Box3 reach = transformed(tool.X_WT, tool.shape.bounds());
-  reach.extend(transformed(tool.X_WT_goal, tool.shape.bounds()));
+  Box3 reach = transformed(part.X_WP, part.shape.bounds());
+  reach.extend(transformed(part.X_WP_goal, part.shape.bounds()));
   reach.grow(own);
   const Vec3* x = x_.data() + tissues_[contact.tissue].first_node;
   const auto& triangles = tissue_info_[contact.tissue].surface.triangles;
@@ -151,9 +189,9 @@ void Scene::Impl::beginContacts(double from, double to)
     contact.term->setStiffening(std::max(1.0, kRelaxed * contact.term->stiffening()));
     if (contact.with_tool != nullptr)
     {
-      const Tool& tool = tools_[contact.other];
-      contact.with_tool->beginStep(x_, interpolate(tool.X_WT, tool.X_WT_goal, from),
-                                   interpolate(tool.X_WT, tool.X_WT_goal, to), contact.refresh);
+      const ToolPart& part = partOf(contact);
+      contact.with_tool->beginStep(x_, partAt(contact.other, part, from),
+                                   partAt(contact.other, part, to), contact.refresh);
     }
     else if (contact.with_obstacle != nullptr)
     {
@@ -212,7 +250,6 @@ void Scene::Impl::collectContacts()
   showObstacles();
   for (Tool& tool : tools_)
   {
-    tool.state.wrench_W = Wrench();
     tool.state.contacts.clear();
   }
   for (Obstacle& obstacle : obstacles_)
@@ -235,6 +272,7 @@ void Scene::Impl::collectContacts()
       continue;  // nothing awake is near
     }
     std::vector<ContactPoint>& points = pointsOf(contact);
+    const std::size_t before = points.size();
     for (const ContactSample& sample : contact.term->samples(x_))
     {
       const bool in_first = !rigid && sample.side < 0;
@@ -246,15 +284,15 @@ void Scene::Impl::collectContacts()
     {
       points.push_back(pointOf(force, contact.tissue));
     }
+    for (std::size_t i = before; contact.with_tool != nullptr && i < points.size(); ++i)
+    {
+      points[i].part = static_cast<Index>(contact.part);
+    }
   }
+  collectAttachments();
   for (Tool& tool : tools_)
   {
-    for (const ContactPoint& point : tool.state.contacts)
-    {
-      tool.state.wrench_W.force += point.force_W;
-      tool.state.wrench_W.torque +=
-          (point.position_W - tool.X_WT.translation()).cross(point.force_W);
-    }
+    addUp(tool.X_WT.translation(), tool.state);
   }
 }
 

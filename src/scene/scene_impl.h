@@ -4,11 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "soft_tissue_sim/base/pose_series.h"
+#include "soft_tissue_sim/base/series.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/contact/obstacle_contact.h"
 #include "soft_tissue_sim/contact/tissue_contact.h"
 #include "soft_tissue_sim/contact/tool_contact.h"
+#include "soft_tissue_sim/energy/anchor_springs.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/scene/scene.h"
 #include "soft_tissue_sim/solver/newton.h"
@@ -23,7 +24,8 @@ constexpr double kFailedResidual = 0.05;
 
 /** The scene itself. Building is in scene_build.cpp, its contacts in
  * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
- * scene_step.cpp and scene_inertia.cpp, resting in scene_sleep.cpp, reading out in scene.cpp. */
+ * scene_step.cpp and scene_inertia.cpp, resting in scene_sleep.cpp, tools in scene_tools.cpp, what
+ * is tied to them in scene_attachments.cpp, reading out in scene.cpp. */
 class Scene::Impl
 {
  public:
@@ -32,6 +34,9 @@ class Scene::Impl
   const StepReport& step();
   void resetWorld();
   void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
+  void setJointTargets(std::size_t tool, const JointValues& values);
+  int attach(const AttachRequest& request);
+  int detach(std::size_t tool, std::optional<std::size_t> part);
   void refuseDeepStart();
   std::uint64_t stateHash() const;
   void fillSnapshot(Snapshot& snapshot);
@@ -45,12 +50,24 @@ class Scene::Impl
   std::vector<ObstacleInfo> obstacle_info_;
   StepReport report_;
 
-  struct Tool
+  /** Solids of a tool that keep their places to each other. */
+  struct ToolPart
   {
     RigidBodyShape shape;
-    PoseSeries track;                   ///< key frames; empty: moved from outside
-    Pose X_WT = Pose::Identity();       ///< now
-    Pose X_WT_goal = Pose::Identity();  ///< at the end of the step
+    std::size_t link = 0;               ///< whose frame is the part's
+    Pose X_WP = Pose::Identity();       ///< now
+    Pose X_WP_goal = Pose::Identity();  ///< at the end of the step
+    int attached = 0;                   ///< nodes that are tied to it
+  };
+  struct Tool
+  {
+    std::vector<ToolPart> parts;
+    PoseSeries track;                     ///< key frames; empty: moved from outside
+    JointSeries joint_track;              ///< the same of its joints
+    Pose X_WT = Pose::Identity();         ///< now
+    Pose X_WT_goal = Pose::Identity();    ///< at the end of the step
+    Pose X_WT_target = Pose::Identity();  ///< where it shall go, if its speed allows
+    JointValues joints, joints_goal, joints_target;
     ToolState state;
   };
   std::vector<Tool, Eigen::aligned_allocator<Tool>> tools_;
@@ -78,6 +95,15 @@ class Scene::Impl
     PoseSeries track;
     Pose X_FW = Pose::Identity();  ///< the world in the first key frame's frame
   };
+  /** A node that is tied to a part of a tool. */
+  struct Attachment
+  {
+    std::size_t tool = 0, part = 0;
+    std::size_t tissue = 0;
+    Index row = 0;
+    Vec3 place_P = Vec3::Zero();  ///< where it is drawn to, part frame, m
+    double stiffness = 0.0;       ///< N/m
+  };
   struct Obstacle
   {
     std::shared_ptr<VoxelShape> shape;
@@ -89,6 +115,7 @@ class Scene::Impl
   {
     std::size_t tissue = 0;  ///< or membrane
     std::size_t other = 0;   ///< index of the tool, the obstacle, or the other tissue
+    std::size_t part = 0;    ///< of the tool
     std::unique_ptr<SurfacePoints> points;  ///< of a membrane too coarse for the other
     std::unique_ptr<ContactTerm> term;
     ToolContact* with_tool = nullptr;  ///< the term, as what it is
@@ -124,7 +151,7 @@ class Scene::Impl
   void addContact(std::size_t index);
   void makeDrag();
   void makeSolver();
-  void addToolContact(const ContactConfig& config, Contact& contact);
+  void addToolContacts(const ContactConfig& config, const Contact& named);
   void addTissueContact(const ContactConfig& config, Contact& contact);
   void addObstacleContact(const ContactConfig& config, Contact& contact);
   void showObstacles();
@@ -133,7 +160,7 @@ class Scene::Impl
   void allow(double depth_m, Contact& contact);
   void easeDeepStarts();
   std::string itemOf(std::size_t tissue) const;
-  double stiffnessAgainstRigid(const Contact& contact) const;
+  double stiffnessAgainstRigid(std::size_t tissue, double radius_m) const;
   bool isFine(std::size_t tissue, double radius_m) const;
   double innerRadiusOf(std::size_t tissue);
   TissueBody bodyOf(std::size_t tissue) const;
@@ -153,6 +180,27 @@ class Scene::Impl
     }
   }
   void aimTools();
+  void placeTool(std::size_t index);
+  Pose targetOf(std::size_t index, const JointValues& joints) const;
+  void aim(std::size_t index, double end_s);
+  static void arrive(Tool& tool);
+  JointValues initialJoints(std::size_t index) const;
+  Pose partAt(std::size_t tool, const ToolPart& part, double s) const;
+  const ToolPart& partOf(const Contact& contact) const
+  {
+    return tools_[contact.other].parts[contact.part];
+  }
+  bool isMoving(const ToolPart& part) const
+  {
+    return part.X_WP.matrix() != part.X_WP_goal.matrix();
+  }
+  double motionOfAttached() const;
+  void attachTissue(std::size_t tissue, const AttachRequest& request);
+  void noteAttachments();
+  void beginAttachments(double to);
+  void collectAttachments();
+  void wake(std::size_t island);
+  void wakeThose(const std::vector<char>& chosen);
   int partsOfStep() const;
   double mostMotion(const Contact& contact) const;
   double motionOfTissue(std::size_t tissue, const Vec3& drift, Box3& reach) const;
@@ -205,6 +253,8 @@ class Scene::Impl
   std::vector<Contact> contacts_;
   std::vector<TissuePairState> pairs_;
   std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
+  std::vector<Attachment> attachments_;  ///< by ascending tools, parts and rows
+  AnchorSprings anchors_;                ///< the same in this part of a step, but those that sleep
   Points x_, x_rest_, v_;
   Points acceleration_;  ///< of the last step, to start the next one from; moves nothing by itself
   std::vector<std::size_t> group_;   ///< per tissue: the first of those it touches, itself included

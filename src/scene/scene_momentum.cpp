@@ -52,6 +52,10 @@ void Scene::Impl::findGroups()
   {
     held_[moved.tissue] = 1;
   }
+  for (const Attachment& attached : attachments_)
+  {
+    held_[attached.tissue] = 1;
+  }
   for (const Contact& contact : contacts_)
   {
     if (sleeps(contact) || !contact.term->active())

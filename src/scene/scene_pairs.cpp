@@ -67,9 +67,10 @@ void Scene::Impl::addContact(std::size_t index)
   contact.max_penetration_m = config.max_penetration_m;
   if (find(config_.tools, config.other) < config_.tools.size())
   {
-    addToolContact(config, contact);
+    addToolContacts(config, contact);
+    return;
   }
-  else if (find(config_.obstacles, config.other) < config_.obstacles.size())
+  if (find(config_.obstacles, config.other) < config_.obstacles.size())
   {
     addObstacleContact(config, contact);
   }
@@ -80,19 +81,29 @@ void Scene::Impl::addContact(std::size_t index)
   contacts_.push_back(std::move(contact));
 }
 
-void Scene::Impl::addToolContact(const ContactConfig& config, Contact& contact)
+/** One of each part of the tool. */
+void Scene::Impl::addToolContacts(const ContactConfig& config, const Contact& named)
 {
-  contact.other = find(config_.tools, config.other);
-  const RigidBodyShape& shape = tools_[contact.other].shape;
-  contact.size_m = shape.innerRadius();
-  const FieldConfig field = fieldConfigOf(contact.tissue);
-  contact.refresh = refreshes(field);
-  auto term = std::make_unique<ToolContact>(
-      surfaceFor(contact.size_m, config, contact), shape, fieldOf(contact.tissue),
-      optionsOf(config, field, isFine(contact.tissue, contact.size_m),
-                stiffnessAgainstRigid(contact)));
-  contact.with_tool = term.get();
-  contact.term = std::move(term);
+  const std::size_t index = find(config_.tools, config.other);
+  const FieldConfig field = fieldConfigOf(named.tissue);
+  for (std::size_t part = 0; part < tools_[index].parts.size(); ++part)
+  {
+    const RigidBodyShape& shape = tools_[index].parts[part].shape;
+    Contact contact;
+    contact.tissue = named.tissue;
+    contact.max_penetration_m = named.max_penetration_m;
+    contact.other = index;
+    contact.part = part;
+    contact.size_m = shape.innerRadius();
+    contact.refresh = refreshes(field);
+    auto term = std::make_unique<ToolContact>(
+        surfaceFor(contact.size_m, config, contact), shape, fieldOf(contact.tissue),
+        optionsOf(config, field, isFine(contact.tissue, contact.size_m),
+                  stiffnessAgainstRigid(contact.tissue, contact.size_m)));
+    contact.with_tool = term.get();
+    contact.term = std::move(term);
+    contacts_.push_back(std::move(contact));
+  }
 }
 
 void Scene::Impl::addObstacleContact(const ContactConfig& config, Contact& contact)
@@ -103,7 +114,7 @@ void Scene::Impl::addObstacleContact(const ContactConfig& config, Contact& conta
   auto term = std::make_unique<ObstacleContact>(
       surfaceFor(contact.size_m, config, contact), obstacle.shape, obstacle.X_WO,
       optionsOf(config, fieldConfigOf(contact.tissue), isFine(contact.tissue, contact.size_m),
-                stiffnessAgainstRigid(contact)));
+                stiffnessAgainstRigid(contact.tissue, contact.size_m)));
   contact.with_obstacle = term.get();
   contact.term = std::move(term);
 }
@@ -137,15 +148,13 @@ void Scene::Impl::addTissueContact(const ContactConfig& config, Contact& contact
 }
 
 /** Of a tool or obstacle with a soft body, see kAutoStiffness. */
-double Scene::Impl::stiffnessAgainstRigid(const Contact& contact) const
+double Scene::Impl::stiffnessAgainstRigid(std::size_t tissue, double radius_m) const
 {
   const std::size_t tissues = config_.tissues.size();
-  const double young_modulus = config_.softBody(contact.tissue).material.young_modulus_pa;
+  const double young_modulus = config_.softBody(tissue).material.young_modulus_pa;
   const double share =
-      contact.tissue < tissues
-          ? 1.0
-          : config_.membranes[contact.tissue - tissues].thickness_m / contact.size_m;
-  return kAutoStiffness * young_modulus * share / contact.size_m;
+      tissue < tissues ? 1.0 : config_.membranes[tissue - tissues].thickness_m / radius_m;
+  return kAutoStiffness * young_modulus * share / radius_m;
 }
 
 /** Whether a soft body's edges are fine for contact with this radius, see kFineEdge. */
@@ -269,8 +278,8 @@ void Scene::Impl::refuseDeepStart()
     {
       continue;
     }
-    const Tool& tool = tools_[contact.other];
-    contact.with_tool->beginStep(x_, tool.X_WT, tool.X_WT, true);
+    const ToolPart& part = partOf(contact);
+    contact.with_tool->beginStep(x_, part.X_WP, part.X_WP, true);
     const double deepest = contact.term->active() ? contact.term->deepest(x_) : 0.0;
     if (deepest > kDeepStart * contact.size_m)
     {

@@ -68,15 +68,16 @@ bool Scene::Impl::areNear(const Contact& contact) const
   }
   if (contact.with_tool != nullptr)
   {
-    const Tool& tool = tools_[contact.other];
-    Box3 swept = transformed(tool.X_WT, tool.shape.bounds());
-    swept.extend(transformed(tool.X_WT_goal, tool.shape.bounds()));
+    const ToolPart& part = partOf(contact);
+    Box3 swept = transformed(part.X_WP, part.shape.bounds());
+    swept.extend(transformed(part.X_WP_goal, part.shape.bounds()));
     return reach.overlaps(swept);
   }
   return false;  // obstacles stand still
 }
 
-/** Whether something outside moves a tissue in this step: its key frames, or a tool near it. */
+/** Whether something outside moves a tissue in this step: its key frames, a tool near it or one
+ * that it is tied to. */
 bool Scene::Impl::isDriven(std::size_t k) const
 {
   const double end_s = report_.time_s + config_.time_step_s;
@@ -84,10 +85,14 @@ bool Scene::Impl::isDriven(std::size_t k) const
     return nodes.tissue == k &&
            !nodes.track.at(end_s).isApprox(nodes.track.at(report_.time_s), kUnmoved);
   });
-  return moved || std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& contact) {
+  const bool pulled =
+      std::any_of(attachments_.begin(), attachments_.end(), [&](const Attachment& attached) {
+        return attached.tissue == k && isMoving(tools_[attached.tool].parts[attached.part]);
+      });
+  return moved || pulled ||
+         std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& contact) {
            return contact.tissue == k && contact.with_tool != nullptr &&
-                  tools_[contact.other].X_WT.matrix() != tools_[contact.other].X_WT_goal.matrix() &&
-                  areNear(contact);
+                  isMoving(partOf(contact)) && areNear(contact);
          });
 }
 
@@ -100,18 +105,7 @@ void Scene::Impl::wakeUp()
     return;
   }
   findReaches();
-  bool any = false;
-  const auto wake = [&](std::size_t island) {
-    for (std::size_t k = 0; k < tissues_.size(); ++k)
-    {
-      if (asleep_[k] != 0 && island_[k] == island)
-      {
-        asleep_[k] = 0;
-        quiet_s_[k] = 0.0;
-      }
-    }
-    any = true;
-  };
+  const std::size_t sleeping = sleepers();
   for (std::size_t k = 0; k < tissues_.size(); ++k)
   {
     if (asleep_[k] != 0 && isDriven(k))
@@ -132,9 +126,22 @@ void Scene::Impl::wakeUp()
       }
     }
   }
-  if (any)
+  if (sleepers() < sleeping)
   {
     setSleepers();
+  }
+}
+
+/** Wakes the tissues that sleep together; setSleepers() has to follow. */
+void Scene::Impl::wake(std::size_t island)
+{
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
+  {
+    if (asleep_[k] != 0 && island_[k] == island)
+    {
+      asleep_[k] = 0;
+      quiet_s_[k] = 0.0;
+    }
   }
 }
 

@@ -14,18 +14,6 @@ namespace
 constexpr int kMostStiffenings = 12;
 }  // namespace
 
-void Scene::Impl::aimTools()
-{
-  const double end_s = report_.time_s + config_.time_step_s;
-  for (Tool& tool : tools_)
-  {
-    if (!tool.track.empty())
-    {
-      tool.X_WT_goal = tool.track.at(end_s);
-    }
-  }
-}
-
 const StepReport& Scene::Impl::step()
 {
   step_timer_.restart();
@@ -139,6 +127,7 @@ bool Scene::Impl::minimise(double from, double to)
   const std::size_t first_contact = terms_.size();
   extrapolate(report_.time_s + to * config_.time_step_s);
   beginContacts(from, to);
+  beginAttachments(to);
   term_seconds_.assign(terms_.size(), 0.0);
   NewtonReport newton = findBalance();
   bool unfinished = false;
@@ -270,11 +259,7 @@ void Scene::Impl::stop()
 /** What the finished step looks like: forces on tools, worst tet, deepest contact, times. */
 void Scene::Impl::finishStep()
 {
-  for (Tool& tool : tools_)
-  {
-    tool.X_WT = tool.X_WT_goal;
-    tool.state.X_WT = tool.X_WT;
-  }
+  std::for_each(tools_.begin(), tools_.end(), arrive);
   collectContacts();
   const Timer timer;
   report_.min_det_f = config_.tissues.empty() ? 1.0 : 1e300;

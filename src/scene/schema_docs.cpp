@@ -10,15 +10,17 @@ namespace
 /** The unit a key's ending names, as it is written in tables. */
 std::string unitOf(const std::string& key)
 {
-  constexpr std::array<std::array<const char*, 2>, 9> units = {{{"_pa_per_m", "Pa/m"},
-                                                                {"_m_per_s2", "m/s²"},
-                                                                {"_m_per_s", "m/s"},
-                                                                {"_kg_per_m3", "kg/m³"},
-                                                                {"_per_s", "1/s"},
-                                                                {"_pa", "Pa"},
-                                                                {"_rad", "rad"},
-                                                                {"_s", "s"},
-                                                                {"_m", "m"}}};
+  constexpr std::array<std::array<const char*, 2>, 11> units = {{{"_pa_per_m", "Pa/m"},
+                                                                 {"_m_per_s2", "m/s²"},
+                                                                 {"_m_per_s", "m/s"},
+                                                                 {"_kg_per_m3", "kg/m³"},
+                                                                 {"_rad_per_s", "rad/s"},
+                                                                 {"_per_s", "1/s"},
+                                                                 {"_pa", "Pa"},
+                                                                 {"_rad", "rad"},
+                                                                 {"_s", "s"},
+                                                                 {"_rad_or_m", "rad or m"},
+                                                                 {"_m", "m"}}};
   for (const auto& unit : units)
   {
     const std::string ending = unit[0];

@@ -17,17 +17,4 @@ const Section<PoseKeyframe>& keyframeSection()
   return section;
 }
 
-void checkTimes(const Item& item, const char* key, const std::vector<PoseKeyframe>& keyframes)
-{
-  for (std::size_t i = 1; i < keyframes.size(); ++i)
-  {
-    if (!(keyframes[i].time_s > keyframes[i - 1].time_s))
-    {
-      const Item before = item.at(key).at(i - 1).at("time_s");
-      item.at(key).at(i).at("time_s").rejectValue("must be above " + before.path() + " = " +
-                                                  before.written());
-    }
-  }
-}
-
 }  // namespace soft_tissue

@@ -180,9 +180,9 @@ Kind<Vec3> edgeLengths()
   return vectorOf(number(0.0, 10.0, Ends::open));
 }
 
-Kind<Vec3> factors()
+Kind<double> factor(double bound)
 {
-  Kind<double> factor = number(-1000.0, 1000.0, Ends::closed);
+  Kind<double> factor = number(-bound, bound, Ends::closed);
   factor.allowed += " and not 0";
   factor.read = [range = factor](const Item& item) {
     const double value = range.read(item);
@@ -192,7 +192,12 @@ Kind<Vec3> factors()
     }
     return value;
   };
-  return vectorOf(factor);
+  return factor;
+}
+
+Kind<Vec3> factors()
+{
+  return vectorOf(factor(1000.0));
 }
 
 Kind<BoxConfig> box()

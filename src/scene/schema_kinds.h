@@ -55,6 +55,12 @@ Kind<std::string> topic();
 /** Name of a tf frame. */
 Kind<std::string> frame();
 
+/** What stands before the names of tf frames; may be empty. */
+Kind<std::string> prefix();
+
+/** A number in [-bound, bound], not zero. */
+Kind<double> factor(double bound);
+
 /** Three numbers, each in [-bound, bound]. */
 Kind<Vec3> vector(double bound);
 

@@ -28,7 +28,7 @@ struct PresetsConfig
   std::vector<PresetConfig> presets;
 };
 
-/** What a tool's shape may be: a solid, or a link of a URDF. */
+/** What a tool's shape may be: a solid, or links of a URDF. */
 struct ToolShapeConfig
 {
   ShapeConfig solid;
@@ -42,13 +42,30 @@ const Section<ToolConfig>& toolSection();
 const Section<ToolShapeConfig>& toolShapeSection();
 const Section<ObstacleConfig>& obstacleSection();
 const Section<PoseSourceConfig>& poseSourceSection();
+const Section<JointSourceConfig>& jointSourceSection();
+const Section<JawConfig>& jawSection();
 const Section<PoseKeyframe>& keyframeSection();
 const Section<ContactConfig>& contactSection();
 const Section<PoseConfig>& poseSection();
 const Section<PresetsConfig>& presetsSection();
 
 /** Rejects key frames under a key whose times do not ascend. */
-void checkTimes(const Item& item, const char* key, const std::vector<PoseKeyframe>& keyframes);
+template <class Keyframe>
+void checkTimes(const Item& item, const char* key, const std::vector<Keyframe>& keyframes)
+{
+  for (std::size_t i = 1; i < keyframes.size(); ++i)
+  {
+    if (!(keyframes[i].time_s > keyframes[i - 1].time_s))
+    {
+      const Item before = item.at(key).at(i - 1).at("time_s");
+      item.at(key).at(i).at("time_s").rejectValue("must be above " + before.path() + " = " +
+                                                  before.written());
+    }
+  }
+}
+
+/** Joints by their names, with the values they have. */
+Kind<std::vector<JointValue>> jointValues();
 
 /** The ranges material constants must lie in, wherever they stand. */
 Kind<MaterialModel> materialModel();

@@ -45,34 +45,48 @@ const Section<MeshShape>& meshShapeSection()
   return section;
 }
 
-/** The one link a urdf shape takes, named in either of two ways. */
-struct UrdfKeys
+/** Text; empty stands for the first of the links. */
+Kind<std::string> frameLink()
 {
-  std::string file;
-  std::string link;
-};
-
-void oneLink(UrdfKeys& keys, const std::vector<std::string>& links)
-{
-  keys.link = links.size() == 1 ? links.front() : "";
+  Kind<std::string> kind = text();
+  kind.show = [](const std::string& link) {
+    return link.empty() ? std::string("the first link") : link;
+  };
+  return kind;
 }
 
-const Section<UrdfKeys>& urdfSection()
+void setLink(UrdfShapeConfig& urdf, const std::string& link)
 {
-  static const Section<UrdfKeys> section =
-      Section<UrdfKeys>("urdf", "The collision geometry of a link of a robot description.")
-          .required("file", &UrdfKeys::file, file(),
+  urdf.links = {link};
+}
+
+void checkLinks(const Item& item, UrdfShapeConfig& urdf)
+{
+  for (std::size_t i = 0; i < urdf.links.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      if (urdf.links[i] == urdf.links[j])
+      {
+        const Item links = item.at("links");
+        links.at(i).rejectValue("is " + links.at(j).path() + " too, must be new");
+      }
+    }
+  }
+}
+
+const Section<UrdfShapeConfig>& urdfSection()
+{
+  static const Section<UrdfShapeConfig> section =
+      Section<UrdfShapeConfig>("urdf", "The collision geometry of links of a robot description.")
+          .required("file", &UrdfShapeConfig::file, file(),
                     "URDF file. Relative paths start at the scene file.")
-          .alternative("link", &UrdfKeys::link, text(),
-                       "The link; the tool frame is the link's frame.")
-          .alternative("links", oneLink, listOf(text(), 1),
-                       "The same as a list; more than one link is not available yet.")
-          .finally([](const Item& item, UrdfKeys& keys) {
-            if (keys.link.empty())
-            {
-              item.at("links").rejectValue("more than one link is " + std::string(kNotAvailable));
-            }
-          });
+          .alternative("link", setLink, text(), "The link.")
+          .alternative("links", &UrdfShapeConfig::links, listOf(text(), 1),
+                       "Several, which the URDF's joints move against each other.")
+          .optional("frame", &UrdfShapeConfig::frame, frameLink(),
+                    "Any link of the URDF: its frame is the tool frame.")
+          .finally(checkLinks);
   return section;
 }
 
@@ -82,9 +96,9 @@ void setGeometry(ToolShapeConfig& shape, const Shape& geometry)
   shape.solid.geometry = geometry;
 }
 
-void setUrdf(ToolShapeConfig& shape, const UrdfKeys& keys)
+void setUrdf(ToolShapeConfig& shape, const UrdfShapeConfig& urdf)
 {
-  shape.urdf = UrdfShapeConfig{keys.file, keys.link};
+  shape.urdf = urdf;
 }
 
 }  // namespace
@@ -99,7 +113,7 @@ const Section<ToolShapeConfig>& toolShapeSection()
           .alternative("box", setGeometry<BoxShape>, mapOf(boxSection()), "A box.")
           .alternative("mesh", setGeometry<MeshShape>, mapOf(meshShapeSection()),
                        "A triangle mesh file.")
-          .alternative("urdf", setUrdf, mapOf(urdfSection()), "A link of a URDF file.")
+          .alternative("urdf", setUrdf, mapOf(urdfSection()), "Links of a URDF file.")
           .optional(
               "origin", [](ToolShapeConfig & s) -> auto& { return s.solid.origin; },
               mapOf(poseSection()),

@@ -44,6 +44,11 @@ bool isFrame(const std::string& word)
   return !word.empty() && word[0] != '/' && word.find_first_of(" \t\n") == std::string::npos;
 }
 
+bool isPrefix(const std::string& word)
+{
+  return word.empty() || isFrame(word);
+}
+
 bool isAnything(const std::string& word)
 {
   return !word.empty();
@@ -86,6 +91,11 @@ Kind<std::string> topic()
 Kind<std::string> frame()
 {
   return wordOf("tf frame", "no leading / and no blanks", isFrame);
+}
+
+Kind<std::string> prefix()
+{
+  return wordOf("text", "no leading / and no blanks", isPrefix);
 }
 
 Kind<std::string> file()

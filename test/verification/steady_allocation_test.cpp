@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/scene/scene.h"
+#include "support/forceps.h"
 
 // Every allocation of this program comes through here, whoever asks: C, C++ or a library.
 extern "C" void* __libc_malloc(std::size_t);
@@ -186,6 +187,41 @@ TEST(SteadyAllocation, aStepThatSleepsAllocatesNothing)
   scene.fillSnapshot(snapshot);
   EXPECT_EQ(allocationsOf([&] { scene.step(); }), 0) << firstCaller();
   EXPECT_EQ(scene.step().sleeping, 1);
+}
+
+TEST(SteadyAllocation, aStepOfJawsThatHoldTissueAllocatesNothing)
+{
+  const test::ScratchFolder folder;
+  SceneConfig config = test::blockScene(folder, {4, 4, 2});
+  test::fixBelow(config, 1e-6);
+  ToolConfig& forceps = test::addForceps(config, Vec3(0.0, 0.0, 0.02), 0.5);
+  forceps.joint_source.kind = JointSourceConfig::Kind::keyframes;
+  for (int half = 0; half <= 2 * (kWarmUpPeriods + kCountedPeriods); ++half)
+  {
+    const double value = half % 2 == 0 ? 0.003 : 0.005;
+    forceps.joint_source.keyframes.push_back(
+        {0.5 * kPeriod * (half + 1), {{"left", value}, {"right", value}}});
+  }
+  Scene scene(config);
+  AttachRequest request;
+  request.reach_m = 0.004;
+  Snapshot snapshot;
+  while (scene.time() < (kWarmUpPeriods + 0.5) * kPeriod)
+  {
+    scene.step();
+    scene.fillSnapshot(snapshot);
+    if (snapshot.tools[0].attached == 0)
+    {
+      ASSERT_GT(scene.attach(request), 0);
+    }
+  }
+  while (scene.time() < (kWarmUpPeriods + kCountedPeriods) * kPeriod)
+  {
+    ASSERT_EQ(allocationsOf([&] { scene.step(); }), 0) << scene.time() << " s\n" << firstCaller();
+    ASSERT_EQ(allocationsOf([&] { scene.fillSnapshot(snapshot); }), 0) << firstCaller();
+    ASSERT_GT(snapshot.report.contacts, 0);
+    ASSERT_GT(snapshot.tools[0].attached, 0);
+  }
 }
 
 TEST(AllocationCounter, seesEveryKind)

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "soft_tissue_sim/base/pose_series.h"
+#include "soft_tissue_sim/base/series.h"
 #include "soft_tissue_sim/scene/config.h"
 
 namespace soft_tissue_sim
@@ -17,6 +17,8 @@ struct BagPoses
   double length_s = 0.0;  ///< from the earliest to the latest pose
   std::vector<soft_tissue::PoseSeries>
       tools;  ///< one per tool of the scene, empty where the bag has none
+  /** The same of their joints and jaws; joints that others move are no numbers. */
+  std::vector<soft_tissue::JointSeries> joints, jaws;
   std::vector<std::string> warnings;
 };
 
@@ -26,7 +28,11 @@ struct BagPoses
  * For a topic tool that is `.../<tool>/<its topic>` or, if the bag has none,
  * `.../<tool>/measured_cp`, below any namespace; samples are sorted by header stamp (by recording
  * time where it is zero). Frames other than the world are resolved through /tf and /tf_static in
- * the bag. Poses that the node would reject are left out, with a warning.
+ * the bag. Joints are those on `.../<tool>/<its joint topic>` and `.../<tool>/<its jaw's>`, or else
+ * on
+ * `.../<tool>/measured_js` and `.../<tool>/jaw/measured_js`. What the node would reject is left
+ * out, with a warning.
+ * @param tools  their URDFs are read
  * @throws soft_tissue::Error if the file is not a readable bag, or has no usable pose (naming the
  * topics it has), or two topics claim the same tool
  */

@@ -7,18 +7,20 @@
 
 namespace soft_tissue_sim
 {
-/** Why a pose command is not obeyed. */
+/** Why a command is not obeyed. */
 enum class Rejection
 {
   none,
-  not_finite,      ///< NaN or infinity in position or orientation
-  not_unit,        ///< the quaternion's norm is off 1 by more than 1e-3
-  too_far,         ///< more than 10 m from the origin of its frame or of the world
-  unknown_frame,   ///< tf knows no way from its frame to the world
-  no_transform,    ///< tf knows the frames but not at the stamp
-  stamp_went_back  ///< older than the command before it
+  not_finite,       ///< NaN or infinity
+  not_unit,         ///< the quaternion's norm is off 1 by more than 1e-3
+  too_far,          ///< more than 10 m from the origin of its frame or of the world
+  unknown_frame,    ///< tf knows no way from its frame to the world
+  no_transform,     ///< tf knows the frames but not at the stamp
+  stamp_went_back,  ///< older than the command before it
+  no_joint,         ///< names no joint of the tool, or has not one position for each name
+  other_motion      ///< a link's frame is not where its joint can have it
 };
-constexpr int kRejectionCount = 7;
+constexpr int kRejectionCount = 9;
 
 /** What the rejection means, for logs and diagnostics. */
 const char* rejectionText(Rejection rejection);

@@ -2,8 +2,8 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
-#include <deque>
 #include <mutex>
+#include <vector>
 
 #include "soft_tissue_sim/node/command_gate.h"
 #include "soft_tissue_sim/node/physics_loop.h"
@@ -16,7 +16,7 @@ class Diagnostics
 {
  public:
   Diagnostics(const PhysicsLoop& loop, const SceneTopics& scene_topics,
-              const std::deque<CommandGate>& gates);
+              const std::vector<const CommandWatch*>& watches);
 
   /** Notes the newest frame's figures; called by the publishing thread. */
   void note(const Frame& frame);

@@ -16,6 +16,7 @@ geometry_msgs::Vector3 vectorMessage(const soft_tissue::Vec3& v);
 geometry_msgs::Pose poseMessage(const soft_tissue::Pose& X);
 geometry_msgs::Transform transformMessage(const soft_tissue::Pose& X);
 
+soft_tissue::Vec3 vectorFromMessage(const geometry_msgs::Vector3& v);
 /** Rigid transform of a message; the quaternion is normalised. */
 soft_tissue::Pose poseFromMessage(const geometry_msgs::Pose& pose);
 soft_tissue::Pose poseFromMessage(const geometry_msgs::Transform& transform);

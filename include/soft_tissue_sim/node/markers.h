@@ -6,6 +6,7 @@
 
 #include "soft_tissue_sim/node/message_builders.h"
 #include "soft_tissue_sim/node/tissue_depths.h"
+#include "soft_tissue_sim/node/tool_looks.h"
 
 namespace soft_tissue_sim
 {
@@ -28,8 +29,9 @@ struct MarkerOptions
  * Markers of a scene; ns and id of each stay the same from one array to the next.
  *
  * Namespaces: `<tissue>`, `<tissue>/fixed`, `<tissue>/distance/slice`, `<tissue>/distance/nodes`,
- * `<tool>`, `<tool>/contacts` (the strongest ones), `<tool>/force`, `tissue_pairs` (the strongest
- * contacts of each pair, which no tissue or tool may be called).
+ * `<tool>` (a marker for each of toolLooks()), `<tool>/contacts` (the strongest ones),
+ * `<tool>/force`, `tissue_pairs` (the strongest contacts of each pair, which no tissue or tool may
+ * be called).
  */
 class MarkerBuilder
 {
@@ -45,8 +47,8 @@ class MarkerBuilder
  private:
   const SceneInfo& info_;
   MarkerOptions options_;
-  std::vector<double> slice_offset_m_;             ///< per tissue
-  std::vector<visualization_msgs::Marker> tools_;  ///< tool surfaces, without pose and stamp
+  std::vector<double> slice_offset_m_;        ///< per tissue
+  std::vector<std::vector<ToolLook>> tools_;  ///< of each tool
 };
 
 /** Most contact arrows a tool, or a pair of tissues, gets. */

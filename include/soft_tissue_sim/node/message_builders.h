@@ -3,6 +3,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/time.h>
+#include <sensor_msgs/JointState.h>
 #include <soft_tissue_sim/SimStats.h>
 #include <soft_tissue_sim/TissueContacts.h>
 #include <soft_tissue_sim/TissueField.h>
@@ -31,6 +32,12 @@ TissueState stateMessage(const SceneInfo& info, const soft_tissue::Snapshot& sna
 TissueField fieldMessage(const SceneInfo& info, std::size_t tissue, std::uint64_t step,
                          const std::vector<double>& depth, const Stamp& stamp);
 geometry_msgs::PoseStamped toolPoseMessage(const soft_tissue::ToolState& tool, const Stamp& stamp);
+/** The joints that move by themselves. */
+sensor_msgs::JointState jointMessage(const soft_tissue::ToolInfo& info,
+                                     const soft_tissue::ToolState& tool, const Stamp& stamp);
+/** Of a tool with a jaw: where that is, by the name "jaw". */
+sensor_msgs::JointState jawMessage(const soft_tissue::ToolConfig& config,
+                                   const soft_tissue::ToolState& tool, const Stamp& stamp);
 /** Force of tissue on the tool, about the tool frame's origin, in tool axes; frame_id is the tool.
  */
 geometry_msgs::WrenchStamped bodyWrenchMessage(const soft_tissue::ToolState& tool,

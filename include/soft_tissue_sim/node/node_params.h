@@ -26,7 +26,6 @@ struct NodeParams
   int threads = 0;    ///< threads a step may use; 0: one per processor
   std::string world_frame = "world";
   bool publish_clock = false;
-  double watchdog_s = 0.5;
   double command_wait_s = 0.2;  ///< how long a command waits for the transform at its stamp
   double tf_poll_hz = 200.0;    ///< how often followed tf frames are looked up
   RateLimits rates;

@@ -19,6 +19,7 @@
 #include "soft_tissue_sim/node/latest_exchange.h"
 #include "soft_tissue_sim/node/real_time_meter.h"
 #include "soft_tissue_sim/node/step_schedule.h"
+#include "soft_tissue_sim/node/twist_command.h"
 #include "soft_tissue_sim/scene/scene.h"
 
 namespace soft_tissue_sim
@@ -49,6 +50,14 @@ struct LoopCounters
   std::atomic<bool> paused{false};
 };
 
+/** What a tool is told, between the callbacks and the physics thread. */
+struct ToolCommands
+{
+  PoseStream pose;
+  TwistCommand twist;
+  JointStream joints, jaw;  ///< of one tool's joints, NaN for those that others set
+};
+
 /** The one thread that owns the scene. */
 class PhysicsLoop
 {
@@ -58,6 +67,7 @@ class PhysicsLoop
     double real_time_factor = 1.0;  ///< simulated over wall time; 0: as fast as possible
     bool paused = false;
     TimeSource time_source = TimeSource::wall;
+    double watchdog_s = 0.5;  ///< silence of commands after which tools stay where they are
   };
 
   /** @param on_failure  called in the physics thread if it has to end for an exception */
@@ -72,12 +82,24 @@ class PhysicsLoop
   /** Tells where a tool shall be; `sent_s` is as in CommandStream::put(). From any thread. */
   void command(std::size_t tool, const soft_tissue::Pose& X_WT, std::optional<double> sent_s);
 
+  void commandTwist(std::size_t tool, const Twist& twist);
+  /** Values of those joints that are not the jaw's; NaN: as they are. */
+  void commandJoints(std::size_t tool, const soft_tissue::JointValues& values,
+                     std::optional<double> sent_s);
+  /** The same of the jaw's joints. */
+  void commandJaw(std::size_t tool, const soft_tissue::JointValues& values,
+                  std::optional<double> sent_s);
+
   void setPaused(bool paused);
   /** Steps a paused loop; waits for the last one. @return simulated time, empty if it is not paused
    */
   std::optional<double> step(std::uint32_t steps);
   /** Rest shape and initial tool poses; commands given before are forgotten; time goes on. */
   void resetWorld();
+  /** Scene::attach(). @throws soft_tissue::Error as that does */
+  int attach(const soft_tissue::AttachRequest& request);
+  /** Scene::detach(). @throws soft_tissue::Error as that does */
+  int detach(std::size_t tool, std::optional<std::size_t> part);
 
   LatestExchange<Frame>& frames() { return frames_; }
   const LoopCounters& counters() const { return counters_; }
@@ -90,6 +112,7 @@ class PhysicsLoop
   bool stepIfDue();
   bool clockHasStarted();
   void aimTools(bool at_once);
+  void aimTool(std::size_t tool, std::optional<double> time_s);
   void advance(bool at_once);
   void publishFrame();
   double clockNow() const;
@@ -99,7 +122,7 @@ class PhysicsLoop
   soft_tissue::Scene scene_;
   Config config_;
   std::function<void(const std::string&)> on_failure_;
-  std::deque<CommandStream> commands_;  ///< one per tool
+  std::deque<ToolCommands> commands_;  ///< one per tool
   CommandClock command_clock_;
   StepSchedule schedule_;
   bool clock_started_ = false;

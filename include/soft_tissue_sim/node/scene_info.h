@@ -22,6 +22,7 @@ struct SceneInfo
 
   std::vector<soft_tissue::TissueInfo> tissues;
   std::vector<soft_tissue::ToolInfo> tools;
+  std::vector<soft_tissue::ToolConfig> tool_configs;
   std::vector<std::string> tissue_names;
   std::vector<std::uint64_t> topology_ids;   ///< per tissue: hash of node count and tets
   std::vector<TissuePairInfo> tissue_pairs;  ///< in the order of Snapshot::tissue_pairs

@@ -2,19 +2,18 @@
 
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
-#include <tf2_ros/buffer.h>
 
 #include <deque>
 #include <memory>
 
+#include "soft_tissue_sim/node/attach_services.h"
 #include "soft_tissue_sim/node/diagnostics.h"
 #include "soft_tissue_sim/node/distance_service.h"
 #include "soft_tissue_sim/node/frame_publisher.h"
+#include "soft_tissue_sim/node/inputs.h"
 #include "soft_tissue_sim/node/node_params.h"
 #include "soft_tissue_sim/node/sim_services.h"
-#include "soft_tissue_sim/node/tf_listener.h"
 #include "soft_tissue_sim/node/tissue_topics.h"
-#include "soft_tissue_sim/node/tool_inputs.h"
 #include "soft_tissue_sim/node/tool_topics.h"
 
 namespace soft_tissue_sim
@@ -34,9 +33,7 @@ class SimNode
   bool failed() const { return failed_; }
 
  private:
-  void addInputs(const std::vector<soft_tissue::ToolConfig>& tools);
   void addOutputs();
-  void pollInputs();
   void onFailure(const std::string& what);
 
   ros::NodeHandle node_;
@@ -46,12 +43,7 @@ class SimNode
   std::atomic<bool> failed_{false};
   PhysicsLoop loop_;
 
-  tf2_ros::Buffer buffer_;
-  std::unique_ptr<TfListener> listener_;
-  std::deque<CommandGate> gates_;
-  std::deque<TopicInput> topic_inputs_;
-  std::deque<TfInput> tf_inputs_;
-  ros::WallTimer input_timer_;
+  std::unique_ptr<Inputs> inputs_;
 
   TissueDepths depths_;  ///< used by the publishing thread only, once it runs
   FramePublisher publisher_;
@@ -62,6 +54,7 @@ class SimNode
   ros::WallTimer diagnostics_timer_;
   std::unique_ptr<DistanceService> distances_;
   std::unique_ptr<SimServices> services_;
+  std::unique_ptr<AttachServices> attach_services_;
 };
 
 }  // namespace soft_tissue_sim

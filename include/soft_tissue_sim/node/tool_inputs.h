@@ -1,57 +1,46 @@
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
-#include <ros/node_handle.h>
-#include <ros/subscriber.h>
-#include <tf2_ros/buffer.h>
+#include <geometry_msgs/TwistStamped.h>
 
-#include <deque>
 #include <optional>
 #include <string>
 
-#include "soft_tissue_sim/node/command_gate.h"
+#include "soft_tissue_sim/node/stamped_input.h"
 
 namespace soft_tissue_sim
 {
-/** Takes a tool's poses from a topic; everything runs in the callback queue's thread. */
-class TopicInput
+/** Takes a tool's poses. */
+class PoseInput : public StampedInput<geometry_msgs::PoseStamped>
 {
  public:
-  /**
-   * @param topic   name below `node`
-   * @param wait_s  how long a command may wait for the transform at its stamp
-   */
-  TopicInput(ros::NodeHandle& node, const std::string& topic, CommandGate& gate,
-             const tf2_ros::Buffer& buffer, std::string world_frame, double wait_s);
-  TopicInput(const TopicInput&) = delete;
-  TopicInput& operator=(const TopicInput&) = delete;
-
-  /** Tries again the commands that wait for their transform. */
-  void poll();
+  PoseInput(PoseGate& gate, const FrameLookup& frames) : StampedInput(gate, frames), gate_(gate) {}
 
  private:
-  struct Waiting
-  {
-    geometry_msgs::PoseStamped::ConstPtr command;
-    double since_s;  ///< steady clock
-  };
-  enum class Resolved
-  {
-    yes,
-    not_yet,
-    refused
-  };
+  Rejection check(const geometry_msgs::PoseStamped& command) const override;
+  Rejection take(const geometry_msgs::PoseStamped& command, const soft_tissue::Pose& X_WF) override;
 
-  void onCommand(const geometry_msgs::PoseStamped::ConstPtr& command);
-  Resolved resolve(const geometry_msgs::PoseStamped& command, bool may_wait);
+  PoseGate& gate_;
+};
 
-  CommandGate& gate_;
-  const tf2_ros::Buffer& buffer_;
-  std::string world_frame_;
-  double wait_s_;
-  StampOrder order_;
-  std::deque<Waiting> waiting_;
-  ros::Subscriber subscriber_;
+/** Takes a tool's velocities, in the axes of the frame they name: the world's, the tool's own or
+ * another, whose own motion counts nothing. */
+class TwistInput : public StampedInput<geometry_msgs::TwistStamped>
+{
+ public:
+  /** @param tool_frame  the name of the tool's own frame */
+  TwistInput(TwistGate& gate, const FrameLookup& frames, std::string tool_frame)
+      : StampedInput(gate, frames), gate_(gate), tool_frame_(std::move(tool_frame))
+  {}
+
+ private:
+  Rejection check(const geometry_msgs::TwistStamped& command) const override;
+  bool isKnown(const std::string& frame) const override;
+  Rejection take(const geometry_msgs::TwistStamped& command,
+                 const soft_tissue::Pose& X_WF) override;
+
+  TwistGate& gate_;
+  std::string tool_frame_;
 };
 
 /** Lets a tool follow a tf frame. */
@@ -60,8 +49,8 @@ class TfInput
  public:
   /** @param patience_s  how long the frame may be missing, at the start or later, until that is
    * counted as a rejection, once */
-  TfInput(std::string frame, CommandGate& gate, const tf2_ros::Buffer& buffer,
-          std::string world_frame, double patience_s);
+  TfInput(std::string frame, PoseGate& gate, const tf2_ros::Buffer& buffer, std::string world_frame,
+          double patience_s);
 
   /** Looks the frame up; what is not new is not a command. */
   void poll();
@@ -70,7 +59,7 @@ class TfInput
   void onMissing(const std::string& reason);
 
   std::string frame_;
-  CommandGate& gate_;
+  PoseGate& gate_;
   const tf2_ros::Buffer& buffer_;
   std::string world_frame_;
   double patience_s_;

@@ -9,8 +9,8 @@
 
 namespace soft_tissue_sim
 {
-/** `<tool>/measured_cp`, `<tool>/{body,spatial}/measured_cf`, `<tool>/contacts` and the tool's tf
- * frame. */
+/** `<tool>/measured_cp`, `<tool>/{body,spatial}/measured_cf`, `<tool>/contacts`, the tool's tf
+ * frame, and `<tool>/measured_js` and `<tool>/jaw/measured_js` if it has joints and a jaw. */
 class ToolTopics
 {
  public:
@@ -30,6 +30,8 @@ class ToolTopics
   ros::Publisher body_wrench_;
   ros::Publisher spatial_wrench_;
   ros::Publisher contacts_;
+  ros::Publisher joints_;  ///< none of a tool without
+  ros::Publisher jaw_;     ///< none of a tool without
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Time last_broadcast_;
 };

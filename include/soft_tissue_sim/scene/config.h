@@ -3,12 +3,13 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "soft_tissue_sim/base/types.h"
 #include "soft_tissue_sim/contact/contact_law.h"
 #include "soft_tissue_sim/energy/material.h"
+#include "soft_tissue_sim/scene/pose_config.h"
+#include "soft_tissue_sim/scene/tool_config.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
 
 /**
@@ -17,20 +18,6 @@
  */
 namespace soft_tissue
 {
-struct PoseConfig
-{
-  Vec3 position_m = Vec3::Zero();
-  Vec3 rotation_rpy_rad = Vec3::Zero();  ///< fixed-axis roll, pitch, yaw as in URDF
-
-  Pose toPose() const;
-};
-
-struct MeshConfig
-{
-  std::string file;  ///< absolute path, package:// and relative names already resolved
-  double metres_per_unit = 1.0;
-};
-
 struct MaterialConfig
 {
   MaterialModel model = MaterialModel::neo_hookean;
@@ -59,12 +46,6 @@ struct BoxConfig
 {
   Vec3 min = Vec3::Zero();
   Vec3 max = Vec3::Zero();
-};
-
-struct PoseKeyframe
-{
-  double time_s = 0.0;
-  PoseConfig pose;
 };
 
 /** Nodes that are moved like a rigid body, as frames go from the first one on. */
@@ -125,68 +106,6 @@ struct TissueConfig : SoftBodyConfig
 struct MembraneConfig : SoftBodyConfig
 {
   double thickness_m = 0.0;
-};
-
-struct SphereShape
-{
-  double radius_m = 0.0;
-};
-
-/** Segment of this length along z, centred at the origin, swept by a ball. */
-struct CapsuleShape
-{
-  double radius_m = 0.0;
-  double length_m = 0.0;
-};
-
-struct BoxShape
-{
-  Vec3 size_m = Vec3::Zero();  ///< full edge lengths
-};
-
-/** A closed triangle mesh, given in the shape frame. */
-struct MeshShape
-{
-  MeshConfig mesh;
-  Vec3 scale = Vec3::Ones();
-};
-
-using ShapeGeometry = std::variant<SphereShape, CapsuleShape, BoxShape, MeshShape>;
-
-/** One solid of a tool, placed in the tool frame. */
-struct ShapeConfig
-{
-  ShapeGeometry geometry;
-  PoseConfig origin;  ///< pose of the shape frame in the tool frame
-};
-
-/** Tool geometry taken from one link of a URDF; the node layer turns it into ShapeConfigs. */
-struct UrdfShapeConfig
-{
-  std::string file;  ///< absolute path
-  std::string link;
-};
-
-struct PoseSourceConfig
-{
-  enum class Kind
-  {
-    keyframes,
-    topic,
-    tf,
-  };
-  Kind kind = Kind::topic;
-  std::vector<PoseKeyframe> keyframes;  ///< ascending times; linear / slerp between, held outside
-  std::string name = "servo_cp";        ///< topic below the tool's namespace, or tf frame
-};
-
-struct ToolConfig
-{
-  std::string name;
-  std::vector<ShapeConfig> shapes;
-  std::optional<UrdfShapeConfig> urdf;
-  PoseConfig initial_pose;  ///< where the tool waits for its first command; key frames override it
-  PoseSourceConfig pose_source;
 };
 
 /** Cells of an OctoMap that stand still in the world. */

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,8 @@ struct ContactPoint
   double area = 0.0;   ///< m^2 of the surface it stands for
   Vec3 force_W;        ///< N, of the tissue on the tool
   Index tissue = -1;   ///< index of the tissue; of a pair, of the one whose depth it is
-  Index tet = -1;  ///< of that tissue, which the point is in; -1 where it is its surface in a tool
+  Index tet = -1;   ///< of that tissue, which the point is in; -1 where it is its surface in a tool
+  Index part = -1;  ///< of the tool, that it acts on
 };
 
 /** Force and moment of all tissues on a tool, at the tool frame's origin, in world axes. */
@@ -93,11 +95,21 @@ struct TissueState
   int evaluations = 0;           ///< of its elastic energy, forces or stiffness in this step
 };
 
+/** One of the solids of a tool that move against each other. */
+struct ToolPartState
+{
+  Pose X_WP = Pose::Identity();
+  Wrench wrench_W;  ///< on this part alone, moment about the tool frame's origin
+};
+
 struct ToolState
 {
   Pose X_WT = Pose::Identity();
   Wrench wrench_W;
   std::vector<ContactPoint> contacts;
+  std::vector<ToolPartState> parts;
+  JointValues joints;  ///< in the order of ToolInfo::joints
+  int attached = 0;    ///< nodes that are tied to it
 };
 
 /** Contact of two tissues, of a membrane with a tissue, or of a tissue with itself. */
@@ -107,11 +119,29 @@ struct TissuePairState
   std::vector<ContactPoint> contacts;  ///< forces are those on the first
 };
 
-/** A tool's surface for display, tool frame. */
+/** Part of a tool: all its links that always keep their places to each other. */
+struct ToolPartInfo
+{
+  std::string name;      ///< that of its first link; the tool's if it has no other parts
+  std::size_t link = 0;  ///< of ToolConfig::linkage, whose frame is the part's
+  TriMesh surface;       ///< for display, part frame
+};
+
 struct ToolInfo
 {
   std::string name;
-  TriMesh surface;
+  std::vector<ToolPartInfo> parts;
+  std::vector<Coordinate> joints;  ///< that move by themselves
+};
+
+/** Which nodes to tie to a tool, and how. */
+struct AttachRequest
+{
+  std::size_t tool = 0;
+  std::optional<std::size_t> part;           ///< empty: each node to the part it is nearest to
+  std::optional<std::size_t> tissue;         ///< or membrane; empty: all
+  double reach_m = 0.0;                      ///< of the part's surface
+  std::optional<double> stiffness_pa_per_m;  ///< empty: kAutoStiffness
 };
 
 /** An obstacle's surface for display, world frame: as much of it as tissue has come near to. */
@@ -160,11 +190,33 @@ class Scene
   /** Their surfaces grow in steps that take tissue to new places. */
   const std::vector<ObstacleInfo>& obstacles() const;
 
+  /** Where a tool is now. */
+  const Pose& toolPose(std::size_t tool) const;
+
   /** Simulated time, s. */
   double time() const;
 
   /** Where the tool shall be at the end of the next step. Key-framed tools ignore it. */
   void setToolTarget(std::size_t tool, const Pose& X_WT);
+
+  /**
+   * What the tool's joints shall be at by the end of the next step, as far as their limits and
+   * speeds allow; NaN: as before. Key-framed joints ignore it.
+   * @param values  in the order of ToolInfo::joints
+   * @throws Error unless there are as many
+   */
+  void setJointTargets(std::size_t tool, const JointValues& values);
+
+  /**
+   * Ties surface nodes to a tool by springs that are without force as nodes stand now, until
+   * detach() or resetWorld(). Nodes that are fixed, or tied to that part already, are left out.
+   * @return how many
+   * @throws Error unless the reach is >= 0, the stiffness > 0, and the rest exists
+   */
+  int attach(const AttachRequest& request);
+
+  /** Unties all nodes from a tool, or from one of its parts. @return how many */
+  int detach(std::size_t tool, std::optional<std::size_t> part = std::nullopt);
 
   /** Moves simulated time on by one time step. Never throws for numerical reasons: see
    * StepReport::held. */
@@ -183,7 +235,8 @@ class Scene
   void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
 
   /** Hash of every bit of the dynamic state: positions, velocities, accelerations, what the stepper
-   * carries on and viscous tissue remembers, who sleeps, tool poses, step count. */
+   * carries on and viscous tissue remembers, who sleeps, tool poses, joints and what is tied to
+   * them, step count. */
   std::uint64_t stateHash() const;
 
   /** Copies the state out, reusing the memory `snapshot` already has. */

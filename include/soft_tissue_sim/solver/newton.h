@@ -79,6 +79,8 @@ class NewtonSolver
   /** Makes the next minimisation begin with second derivatives of its own. */
   void forgetMatrix() { matrix_serves_ = matrix_leads_ = false; }
 
+  bool isFixed(Index node) const { return is_fixed_[node]; }
+
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
 

@@ -90,7 +90,7 @@ TEST_F(BagPosesTest, samplesComeInTheOrderOfTheirStamps)
   EXPECT_DOUBLE_EQ(poses.length_s, 2.0);
   ASSERT_EQ(poses.tools.size(), 1u);
   EXPECT_EQ(poses.tools[0].times_s, (std::vector<double>{0.0, 1.0, 2.0}));
-  EXPECT_EQ(poses.tools[0].poses_W[1].translation().x(), 0.1);
+  EXPECT_EQ(poses.tools[0].samples[1].translation().x(), 0.1);
 }
 
 TEST_F(BagPosesTest, recordingTimeStandsInForAZeroStamp)
@@ -106,14 +106,14 @@ TEST_F(BagPosesTest, commandsGoBeforeMeasurements)
   write("/a/probe/servo_cp", 2.0, pose(2.0, 0.1));
   const BagPoses poses = read();
   ASSERT_EQ(poses.tools[0].times_s.size(), 1u);
-  EXPECT_EQ(poses.tools[0].poses_W[0].translation().x(), 0.1);
+  EXPECT_EQ(poses.tools[0].samples[0].translation().x(), 0.1);
 }
 
 TEST_F(BagPosesTest, measurementsServeWhereThereAreNoCommands)
 {
   write("/a/probe/measured_cp", 1.0, pose(1.0, 0.5));
   write("/a/otherprobe/servo_cp", 1.0, pose(1.0, 0.7));
-  EXPECT_EQ(read().tools[0].poses_W[0].translation().x(), 0.5);
+  EXPECT_EQ(read().tools[0].samples[0].translation().x(), 0.5);
 }
 
 TEST_F(BagPosesTest, posesTheNodeWouldRejectAreLeftOutAndReported)
@@ -141,7 +141,7 @@ TEST_F(BagPosesTest, framesAreResolvedThroughTfInTheBag)
   transforms.transforms[0].transform.rotation.w = 1.0;
   write("/tf_static", 9.0, transforms);
   write("/probe/servo_cp", 3.0, pose(3.0, 0.5, "base"));
-  EXPECT_TRUE(read().tools[0].poses_W[0].translation().isApprox(Vec3(0.5, 0.25, 0.0), 1e-15));
+  EXPECT_TRUE(read().tools[0].samples[0].translation().isApprox(Vec3(0.5, 0.25, 0.0), 1e-15));
 }
 
 TEST_F(BagPosesTest, aFollowedFrameIsSampledFromTf)
@@ -162,7 +162,7 @@ TEST_F(BagPosesTest, aFollowedFrameIsSampledFromTf)
   tool.pose_source.name = "leader";
   const BagPoses poses = read({tool});
   EXPECT_EQ(poses.tools[0].times_s, (std::vector<double>{0.0, 1.0}));
-  EXPECT_EQ(poses.tools[0].poses_W[1].translation().x(), 2.0);
+  EXPECT_EQ(poses.tools[0].samples[1].translation().x(), 2.0);
 }
 
 TEST_F(BagPosesTest, withoutPosesTheTopicsOfTheBagAreNamed)

@@ -23,7 +23,7 @@ Pose heightOf(double z)
 
 TEST(CommandStream, hasNoPoseBeforeTheFirstCommand)
 {
-  CommandStream stream;
+  PoseStream stream;
   EXPECT_FALSE(stream.at(1.0));
   EXPECT_FALSE(stream.newest());
   stream.put(heightOf(0.1), std::nullopt, 1.0);
@@ -34,7 +34,7 @@ TEST(CommandStream, hasNoPoseBeforeTheFirstCommand)
 
 TEST(CommandStream, ASingleCommandCountsAtOnceAndIsHeld)
 {
-  CommandStream stream;
+  PoseStream stream;
   stream.put(heightOf(0.1), std::nullopt, 1.0);
   EXPECT_EQ(stream.at(0.9)->translation().z(), 0.1);
   EXPECT_EQ(stream.at(1000.0)->translation().z(), 0.1);
@@ -62,7 +62,7 @@ struct JitteryWay
 std::pair<double, double> unevenness(bool stamped, double sender_clock, double step_s)
 {
   const JitteryWay way;
-  CommandStream stream;
+  PoseStream stream;
   std::size_t next = 0;
   double last = 0.0, uneven = 0.0, lag = 0.0;
   for (double now = 0.02; now < 9.0; now += step_s)
@@ -103,7 +103,7 @@ TEST(CommandStream, MovesEvenlyBetweenCommandsThatComeUnevenly)
 
 TEST(CommandStream, EndsExactlyAtTheLastCommand)
 {
-  CommandStream stream;
+  PoseStream stream;
   for (int i = 0; i <= 100; ++i)
   {
     stream.put(heightOf(0.001 * i), i * kPeriod, 50.0 + i * kPeriod);
@@ -113,7 +113,7 @@ TEST(CommandStream, EndsExactlyAtTheLastCommand)
 
 TEST(CommandStream, ASlowStreamIsNotWaitedFor)
 {
-  CommandStream stream;
+  PoseStream stream;
   for (int i = 0; i < 5; ++i)
   {
     stream.put(heightOf(i), std::nullopt, i);
@@ -123,7 +123,7 @@ TEST(CommandStream, ASlowStreamIsNotWaitedFor)
 
 TEST(CommandStream, NeverTurnsBackBecauseAStreamBecomesSlower)
 {
-  CommandStream stream;
+  PoseStream stream;
   double now = 0.0, last = 0.0;
   for (const double period : {0.002, 0.02, 0.045})
   {
@@ -143,7 +143,7 @@ TEST(CommandStream, NeverTurnsBackBecauseAStreamBecomesSlower)
 
 TEST(CommandStream, SurvivesClocksThatGoBack)
 {
-  CommandStream stream;
+  PoseStream stream;
   for (int i = 0; i < 100; ++i)
   {
     stream.put(heightOf(i), 10.0 + i * kPeriod, 20.0 + i * kPeriod);
@@ -151,7 +151,7 @@ TEST(CommandStream, SurvivesClocksThatGoBack)
   EXPECT_EQ(stream.newest()->translation().z(), 99.0);
   EXPECT_EQ(stream.at(3.0)->translation().z(), 99.0) << "the newest holds after a jump";
   stream.put(heightOf(7.0), 1.0, 5.0);
-  EXPECT_EQ(stream.at(5.0 + CommandStream::kLongestDelay)->translation().z(), 7.0);
+  EXPECT_EQ(stream.at(5.0 + PoseStream::kLongestDelay)->translation().z(), 7.0);
   // The sender alone starts over, as a bag played in a loop does.
   for (int round = 0; round < 3; ++round)
   {

@@ -197,10 +197,6 @@ std::vector<BadScene> notAvailable()
       {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
       {"linear: auto", "linear: multigrid",
        "solver.linear = multigrid, " NOT_AVAILABLE "; must be auto, pcg, cholesky"},
-      {"{topic: servo_cp}", "marker", "tools[1].pose_source = marker, " NOT_AVAILABLE},
-      {"{topic: servo_cp}", "{marker: true}", "tools[1].pose_source.marker: " NOT_AVAILABLE},
-      {kCapsule, "{urdf: {file: mesh.msh, links: [a, b]}}",
-       "tools[0].shape.urdf.links = [a, b], more than one link is " NOT_AVAILABLE},
   };
 }
 

@@ -185,7 +185,8 @@ std::vector<BadScene> badKeys()
        "[{urdf: {file: mesh.msh, link: a}}, {sphere: {radius_m: 1}}]",
        "tools[0].shape: must have no other shape beside urdf"},
       {"{topic: servo_cp}", "{topic: servo_cp, tf: tip}",
-       "tools[1].pose_source: has topic, tf, must have exactly one of keyframes, topic, tf"},
+       "tools[1].pose_source: has topic, tf, must have exactly one of keyframes, topic, twist, "
+       "tf, marker, base"},
       {"{topic: servo_cp}", "{keyframes: []}",
        "tools[1].pose_source.keyframes: is an empty list, must have at least 1"},
   };

@@ -182,7 +182,8 @@ TEST_F(ConfigTest, ToolShapesArrive)
   EXPECT_TRUE(scene.tools[3].shapes.empty());
   ASSERT_TRUE(scene.tools[3].urdf.has_value());
   EXPECT_EQ(scene.tools[3].urdf->file, folder_.path() + "/mesh.msh");
-  EXPECT_EQ(scene.tools[3].urdf->link, "jaw");
+  EXPECT_EQ(scene.tools[3].urdf->links, std::vector<std::string>{"jaw"});
+  EXPECT_EQ(scene.tools[3].urdf->frame, "");
 }
 
 TEST_F(ConfigTest, PoseSourcesArrive)

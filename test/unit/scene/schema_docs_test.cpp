@@ -52,9 +52,10 @@ TEST(SchemaDocsTest, RowsTellTypeUnitRangeDefaultAndMeaning)
       "membrane E t / R^2 in place of E / R, t being its thickness. |");
   EXPECT_EQ(row("capsule", "radius_m"),
             "| `radius_m` | number | m | in (0, 10) | **required** | Radius of the ball. |");
-  EXPECT_EQ(row("tool", "pose_source"),
-            "| `pose_source` | map: [pose source](#pose-source) | | | {topic: servo_cp} | What "
-            "moves it. |");
+  EXPECT_EQ(
+      row("tool", "pose_source"),
+      "| `pose_source` | map or marker: [pose source](#pose-source) | | | {topic: servo_cp} | What "
+      "moves it. |");
 }
 
 /** Scenes that come with the package, in a package of their own whose meshes are stand-ins. */

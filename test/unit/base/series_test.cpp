@@ -1,4 +1,4 @@
-#include "soft_tissue_sim/base/pose_series.h"
+#include "soft_tissue_sim/base/series.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,13 @@
-#include "soft_tissue_sim/node/urdf_shapes.h"
+#include "soft_tissue_sim/node/urdf_tool.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <cmath>
 #include <fstream>
 
-#include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/mesh/mesh_io.h"
-#include "soft_tissue_sim/node/scratch_folder.h"
 #include "support/collada.h"
+#include "support/urdf_files.h"
 
 namespace soft_tissue_sim
 {
@@ -16,58 +15,11 @@ namespace
 {
 using soft_tissue::BoxShape;
 using soft_tissue::MeshShape;
-using soft_tissue::ShapeConfig;
 using soft_tissue::SphereShape;
+using soft_tissue::ToolConfig;
 using soft_tissue::Vec3;
 
-class UrdfShapes : public testing::Test
-{
- protected:
-  std::string writeUrdf(const std::string& links) const
-  {
-    const std::string file = folder_.path() + "/robot.urdf";
-    std::ofstream(file) << "<robot name=\"r\">" << links << "</robot>";
-    return file;
-  }
-
-  std::string writeLink(const std::string& inner) const
-  {
-    return writeUrdf("<link name=\"tip\">" + inner + "</link>");
-  }
-
-  std::vector<ShapeConfig> shapes(const std::string& file, const std::string& link = "tip") const
-  {
-    return shapesFromUrdf({file, link}, folder_.path());
-  }
-
-  /** What the conversion complains of; empty if of nothing. */
-  std::string complaint(const std::string& file, const std::string& link = "tip") const
-  {
-    try
-    {
-      shapes(file, link);
-      return "";
-    }
-    catch (const soft_tissue::Error& error)
-    {
-      return error.what();
-    }
-  }
-
-  ScratchFolder folder_;
-};
-
-std::string collision(const std::string& geometry, const std::string& origin = "")
-{
-  return "<collision>" + origin + "<geometry>" + geometry + "</geometry></collision>";
-}
-
-bool contains(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
-TEST_F(UrdfShapes, spheresAndBoxesKeepSizeAndPlace)
+TEST_F(UrdfTool, spheresAndBoxesKeepSizeAndPlace)
 {
   const auto found =
       shapes(writeLink(collision("<sphere radius=\"0.004\"/>") +
@@ -80,7 +32,7 @@ TEST_F(UrdfShapes, spheresAndBoxesKeepSizeAndPlace)
   EXPECT_TRUE(found[1].origin.rotation_rpy_rad.isApprox(Vec3(0.1, 0.2, 0.3), 1e-12));
 }
 
-TEST_F(UrdfShapes, cylinderBecomesAMeshOfNearlyItsVolume)
+TEST_F(UrdfTool, cylinderBecomesAMeshOfNearlyItsVolume)
 {
   const double radius = 0.004;
   const double length = 0.05;
@@ -103,7 +55,7 @@ TEST_F(UrdfShapes, cylinderBecomesAMeshOfNearlyItsVolume)
   }
 }
 
-TEST_F(UrdfShapes, meshesAreFoundBesideTheUrdfAndByFileUri)
+TEST_F(UrdfTool, meshesAreFoundBesideTheUrdfAndByFileUri)
 {
   std::ofstream(folder_.path() + "/a.stl") << "solid a\nendsolid a\n";
   for (const std::string& name : {std::string("a.stl"), "file://" + folder_.path() + "/a.stl"})
@@ -116,7 +68,7 @@ TEST_F(UrdfShapes, meshesAreFoundBesideTheUrdfAndByFileUri)
   }
 }
 
-TEST_F(UrdfShapes, colladaMeshesBecomeClosedMeshesInMetres)
+TEST_F(UrdfTool, colladaMeshesBecomeClosedMeshesInMetres)
 {
   std::ofstream(folder_.path() + "/hook.dae") << colladaTet(0.001);
   const auto found = shapes(writeLink(collision("<mesh filename=\"hook.dae\" scale=\"1 2 3\"/>")));
@@ -133,7 +85,7 @@ TEST_F(UrdfShapes, colladaMeshesBecomeClosedMeshesInMetres)
   }
 }
 
-TEST_F(UrdfShapes, aMeshThatCantBeReadIsNamedWithItsLink)
+TEST_F(UrdfTool, aMeshThatCantBeReadIsNamedWithItsLink)
 {
   std::ofstream(folder_.path() + "/broken.dae") << "<COLLADA";
   const std::string text = complaint(writeLink(collision("<mesh filename=\"broken.dae\"/>")));
@@ -141,7 +93,7 @@ TEST_F(UrdfShapes, aMeshThatCantBeReadIsNamedWithItsLink)
   EXPECT_TRUE(contains(text, "broken.dae: can't be read: ")) << text;
 }
 
-TEST_F(UrdfShapes, aNameThatDiffersInCaseIsPointedOut)
+TEST_F(UrdfTool, aNameThatDiffersInCaseIsPointedOut)
 {
   std::ofstream(folder_.path() + "/Tool.STL") << "solid a\nendsolid a\n";
   const std::string text = complaint(writeLink(collision("<mesh filename=\"tool.stl\"/>")));
@@ -149,10 +101,10 @@ TEST_F(UrdfShapes, aNameThatDiffersInCaseIsPointedOut)
   EXPECT_TRUE(contains(text, "Tool.STL")) << text;
 }
 
-TEST_F(UrdfShapes, everyMistakeIsNamed)
+TEST_F(UrdfTool, everyMistakeIsNamed)
 {
   const std::string link = writeLink(collision("<sphere radius=\"1\"/>"));
-  EXPECT_TRUE(contains(complaint(link, "nose"), "link 'nose' does not exist"));
+  EXPECT_TRUE(contains(complaint(link, "nose"), "link 'nose': does not exist"));
   EXPECT_TRUE(contains(complaint("/nowhere.urdf"), "can't be read"));
   EXPECT_TRUE(contains(complaint(writeLink("")), "no collision geometry"));
   EXPECT_TRUE(contains(complaint(writeUrdf("<link")), "not a valid robot description"));
@@ -165,46 +117,36 @@ TEST_F(UrdfShapes, everyMistakeIsNamed)
                        "package://PACKAGE/PATH"));
 }
 
-class RealUrdfs : public UrdfShapes
+TEST_F(UrdfTool, eachMissingMeshIsNamed)
 {
- protected:
-  void SetUp() override
-  {
-    const char* data = std::getenv("SOFT_TISSUE_DATA");
-    if (data == nullptr)
-    {
-      GTEST_SKIP() << "SOFT_TISSUE_DATA is not set";
-    }
-    tools_ = std::string(data) + "/tools/";
-  }
-
-  std::string tools_;
-};
-
-TEST_F(RealUrdfs, patientSideManipulator)
-{
-  const std::string file = tools_ + "psm/psm.urdf";
-  EXPECT_EQ(std::get<BoxShape>(shapes(file, "psm_tool_gripper1_link")[0].geometry).size_m,
-            Vec3(0.0014, 0.0102, 0.0018));
-  const auto roll = shapes(file, "psm_tool_roll_link");
-  ASSERT_EQ(roll.size(), 1u);
-  EXPECT_GT(soft_tissue::loadTriMesh(std::get<MeshShape>(roll[0].geometry).mesh.file, 1.0)
-                .mesh.triangles.size(),
-            100u);
-  const std::string none = complaint(file, "psm_yaw_link");
-  EXPECT_TRUE(contains(none, "psm_tool_pitch_link")) << none;
+  const std::string text = complaint(writeLink(collision("<mesh filename=\"a.stl\"/>") +
+                                               collision("<sphere radius=\"1\"/>") +
+                                               collision("<mesh filename=\"b.stl\"/>")));
+  EXPECT_TRUE(contains(text, "a.stl")) << text;
+  EXPECT_TRUE(contains(text, "b.stl")) << text;
 }
 
-TEST_F(RealUrdfs, needleIsOneMesh)
+TEST_F(UrdfTool, visualsAreTakenAsTheyAreAndMissingOnesRemarkedOn)
 {
-  EXPECT_EQ(shapes(tools_ + "needle/needle_40mm.urdf", "baseLink").size(), 1u);
-}
-
-TEST_F(RealUrdfs, missingPackageNamesTheMesh)
-{
-  const std::string text = complaint(tools_ + "psm/psm_ori.urdf", "psm_tool_roll_link");
-  EXPECT_TRUE(contains(text, "package://dvrk_description/psm/meshes/tool_roll_link.STL")) << text;
-  EXPECT_TRUE(contains(text, "link 'psm_tool_roll_link'")) << text;
+  std::ofstream(folder_.path() + "/look.stl") << "solid a\nendsolid a\n";
+  const ToolConfig config = tool(
+      writeLink(collision("<sphere radius=\"1\"/>") +
+                "<visual><origin xyz=\"1 2 3\"/><geometry><mesh filename=\"look.stl\" scale=\"1 2 "
+                "3\"/></geometry><material name=\"m\"><color rgba=\"0.1 0.2 0.3 0.4\"/></material>"
+                "</visual><visual><geometry><cylinder radius=\"0.1\" length=\"0.5\"/></geometry>"
+                "</visual><visual><geometry><mesh filename=\"gone.stl\"/></geometry></visual>"),
+      {"tip"});
+  using Kind = soft_tissue::VisualConfig::Kind;
+  ASSERT_EQ(config.visuals.size(), 2u);
+  EXPECT_EQ(config.visuals[0].kind, Kind::mesh);
+  EXPECT_EQ(config.visuals[0].mesh_uri, "file://" + folder_.path() + "/look.stl");
+  EXPECT_EQ(config.visuals[0].size, Vec3(1, 2, 3));
+  EXPECT_EQ(config.visuals[0].origin.position_m, Vec3(1, 2, 3));
+  EXPECT_NEAR((*config.visuals[0].colour_rgba)[3], 0.4, 1e-6);
+  EXPECT_EQ(config.visuals[1].kind, Kind::cylinder);
+  EXPECT_EQ(config.visuals[1].size, Vec3(0.2, 0.2, 0.5));
+  ASSERT_EQ(config.remarks.size(), 1u);
+  EXPECT_TRUE(contains(config.remarks[0], "gone.stl")) << config.remarks[0];
 }
 
 }  // namespace
