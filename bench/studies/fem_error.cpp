@@ -16,7 +16,9 @@ namespace soft_tissue::studies
 {
 namespace
 {
-constexpr LinearSolverKind kLinearSolvers[] = {LinearSolverKind::pcg, LinearSolverKind::cholesky};
+constexpr LinearSolverKind kLinearSolvers[] = {LinearSolverKind::automatic, LinearSolverKind::pcg,
+                                               LinearSolverKind::cholesky};
+constexpr ElementKind kElements[] = {ElementKind::tet4, ElementKind::tet4_anp, ElementKind::tet10};
 constexpr int kMostTurns = 3;
 constexpr double kLongTurn = 0.5;  // s, of the thread: no more turns after one
 
@@ -98,7 +100,7 @@ void compareMeshes(FemTable& table, const std::string& folder, const Sag& how, b
     {
       throw Error("the beam to compare with did not converge");
     }
-    for (const ElementKind element : {ElementKind::tet4, ElementKind::tet10})
+    for (const ElementKind element : kElements)
     {
       const Sizes sizes = quick                           ? Sizes{0}
                           : element == ElementKind::tet10 ? Sizes{0, 1, 2}
@@ -187,9 +189,9 @@ void compareWithCook(FemTable& table, bool quick)
     {
       for (const LinearSolverKind linear : kLinearSolvers)
       {
-        for (const ElementKind element : {ElementKind::tet4, ElementKind::tet10})
+        for (const ElementKind element : kElements)
         {
-          const int first = quick ? 2 : element == ElementKind::tet4 ? 8 : 4;
+          const int first = quick ? 2 : element == ElementKind::tet10 ? 4 : 8;
           for (int cells = first; cells <= (quick ? 4 : 4 * first); cells *= 2)
           {
             const FemChoice choice{element, law, linear, SolverConfig().tolerance};

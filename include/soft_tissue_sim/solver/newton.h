@@ -79,6 +79,13 @@ class NewtonSolver
   /** Makes the next minimisation begin with second derivatives of its own. */
   void forgetMatrix() { matrix_serves_ = matrix_leads_ = false; }
 
+  /** Makes minimisations from here on independent of those before. */
+  void forget()
+  {
+    forgetMatrix();
+    linear_->forget();
+  }
+
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
 
