@@ -9,7 +9,7 @@ constexpr int kMany = 100;
 /** Rows from which on even the analysis of a matrix would be felt. */
 constexpr Index kMostRows = 20000;
 /** How long a multiplication of a factorisation takes, in those of conjugate gradients. */
-constexpr double kFactorsCost = 4.0;
+constexpr double kFactorsCost = 2.0;
 
 class Automatic : public LinearSolver
 {

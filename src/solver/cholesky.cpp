@@ -24,22 +24,34 @@ void forEachBlock(const BlockMatrix& a, const Visit& visit)
   }
 }
 
-/** Calls visit(row, column) for the numbers of B and then of S, vector by vector. */
-template <typename Visit>
-void forEachOuter(const BlockMatrix& a, const Visit& visit)
+/** Nodes in an order of elimination that fills little. */
+std::vector<Index> nodesInOrder(const BlockMatrix& a)
+{
+  std::vector<Eigen::Triplet<double>> pairs;
+  forEachBlock(a, [&](Index j, Index i, const double*) { pairs.emplace_back(i, j, 1.0); });
+  Eigen::SparseMatrix<double> graph(a.rows(), a.rows());
+  graph.setFromTriplets(pairs.begin(), pairs.end());
+  const Eigen::SparseMatrix<double> both = graph.selfadjointView<Eigen::Lower>();
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::AMDOrdering<int>()(both, order);
+  return {order.indices().begin(), order.indices().end()};
+}
+
+/** A node of outer product k that all others of it are neighbours of, or -1. */
+Index middleOf(const BlockMatrix& a, Index k)
 {
   const OuterProducts& outer = a.outer();
-  for (Index k = 0; k < outer.size(); ++k)
-  {
-    for (Index place = outer.offsets()[k]; place < outer.offsets()[k + 1]; ++place)
-    {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        visit(3 * a.rows() + k, 3 * outer.nodes()[place] + axis);
-      }
-    }
-    visit(3 * a.rows() + k, 3 * a.rows() + k);
-  }
+  const auto begin = outer.nodes().begin() + outer.offsets()[k];
+  const auto end = outer.nodes().begin() + outer.offsets()[k + 1];
+  const auto middle = std::find_if(begin, end, [&](Index node) {
+    return std::all_of(begin, end, [&](Index other) { return a.find(node, other) >= 0; });
+  });
+  return middle == end ? -1 : *middle;
+}
+
+double signOf(double weight)
+{
+  return weight < 0.0 ? 1.0 : -1.0;  // of -S; what weighs nothing is a row of its own
 }
 }  // namespace
 
@@ -49,7 +61,13 @@ void Cholesky::setMatrix(const BlockMatrix& a, const Points& x)
   {
     analyse(a);
   }
-  fill(a);
+  const Index* place = places_.data();
+  forEachNumber(a, [&](Index, Index, double number) { matrix_.valuePtr()[*place++] = number; });
+  expected_negative_ = 0;
+  for (const double weight : a.outer().weights())
+  {
+    expected_negative_ += signOf(weight) < 0.0 ? 1 : 0;
+  }
   factor_.factorize(matrix_);
   iterative_->setMatrix(a, x);
 }
@@ -66,12 +84,17 @@ LinearReport Cholesky::solve(const Points& b, double tolerance, int most_iterati
     d.assign(b.size(), Vec3::Zero());
     return {1, 1.0, true, false};
   }
-  const auto size = static_cast<Eigen::Index>(3 * b.size());
   right_.setZero(matrix_.rows());
-  right_.head(size) = Eigen::Map<const Eigen::VectorXd>(b.data()->data(), size);
+  for (std::size_t i = 0; i < b.size(); ++i)
+  {
+    right_.segment<3>(first_of_node_[i]) = b[i];
+  }
   solution_ = factor_.solve(right_);
   d.resize(b.size());
-  Eigen::Map<Eigen::VectorXd>(d.data()->data(), size) = solution_.head(size);
+  for (std::size_t i = 0; i < b.size(); ++i)
+  {
+    d[i] = solution_.segment<3>(first_of_node_[i]);
+  }
   return {1, 0.0, false, false};
 }
 
@@ -95,7 +118,6 @@ bool Cholesky::hasPatternOf(const BlockMatrix& a) const
                     samePlace);
 }
 
-/** Pattern of the lower triangle: column 3j + k holds rows 3i + l >= 3j + k of blocks i >= j. */
 void Cholesky::analyse(const BlockMatrix& a)
 {
   offsets_ = a.offsets();
@@ -107,29 +129,44 @@ void Cholesky::analyse(const BlockMatrix& a)
   }
   outer_offsets_ = a.outer().offsets();
   outer_nodes_ = a.outer().nodes();
+  orderUnknowns(a);
   std::vector<Eigen::Triplet<double>> entries;
-  forEachBlock(a, [&](Index j, Index i, const double*) {
-    for (int column = 0; column < 3; ++column)
-    {
-      for (int row = i == j ? column : 0; row < 3; ++row)
-      {
-        entries.emplace_back(3 * i + row, 3 * j + column, 0.0);
-      }
-    }
-  });
-  forEachOuter(a, [&](int row, int column) { entries.emplace_back(row, column, 0.0); });
+  forEachNumber(a,
+                [&](Index row, Index column, double) { entries.emplace_back(row, column, 0.0); });
   const Index size = 3 * a.rows() + a.outer().size();
   matrix_.resize(size, size);
   matrix_.setFromTriplets(entries.begin(), entries.end());
   factor_.analyzePattern(matrix_);
   places_.clear();
-  forEachBlock(a, [&](Index j, Index i, const double*) {
-    for (int column = 0; column < 3; ++column)
+  forEachNumber(a,
+                [&](Index row, Index column, double) { places_.push_back(placeOf(row, column)); });
+}
+
+void Cholesky::orderUnknowns(const BlockMatrix& a)
+{
+  std::vector<std::vector<Index>> outer_of(a.rows());
+  std::vector<Index> last;
+  for (Index k = 0; k < a.outer().size(); ++k)
+  {
+    const Index middle = middleOf(a, k);
+    (middle < 0 ? last : outer_of[middle]).push_back(k);
+  }
+  first_of_node_.resize(a.rows());
+  of_outer_.resize(a.outer().size());
+  Index count = 0;
+  for (const Index node : nodesInOrder(a))
+  {
+    first_of_node_[node] = count;
+    count += 3;
+    for (const Index k : outer_of[node])
     {
-      places_.push_back(placeOf(3 * i + (i == j ? column : 0), 3 * j + column));
+      of_outer_[k] = count++;
     }
-  });
-  forEachOuter(a, [&](int row, int column) { places_.push_back(placeOf(row, column)); });
+  }
+  for (const Index k : last)
+  {
+    of_outer_[k] = count++;
+  }
 }
 
 /** Where a number of the lower triangle stands in matrix_. */
@@ -140,31 +177,36 @@ Index Cholesky::placeOf(int row, int column) const
   return static_cast<Index>(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());
 }
 
-void Cholesky::fill(const BlockMatrix& a)
+/** Calls visit(row, column, number) for all numbers of the lower triangle, always in the same
+ * order. */
+template <typename Visit>
+void Cholesky::forEachNumber(const BlockMatrix& a, const Visit& visit) const
 {
-  const Index* place = places_.data();
+  const auto lower = [&](Index i, Index j, double number) {
+    visit(std::max(i, j), std::min(i, j), number);
+  };
   forEachBlock(a, [&](Index j, Index i, const double* block) {
     for (int column = 0; column < 3; ++column)
     {
-      // Block (i, j) below the diagonal is the transpose of the stored block (j, i).
-      double* value = matrix_.valuePtr() + *place++;
-      for (int row = i == j ? column : 0; row < 3; ++row)
+      for (int row = 0; row < (i == j ? column + 1 : 3); ++row)
       {
-        *value++ = block[3 * row + column];
+        lower(first_of_node_[j] + row, first_of_node_[i] + column, block[3 * column + row]);
       }
     }
   });
   const OuterProducts& outer = a.outer();
-  expected_negative_ = 0;
   for (Index k = 0; k < outer.size(); ++k)
   {
     const double weight = outer.weights()[k], root = std::sqrt(std::abs(weight));
-    for (Index i = 3 * outer.offsets()[k]; i < 3 * outer.offsets()[k + 1]; ++i)
+    for (Index place = outer.offsets()[k]; place < outer.offsets()[k + 1]; ++place)
     {
-      matrix_.valuePtr()[*place++] = root * outer.vector(0)[i];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        lower(of_outer_[k], first_of_node_[outer.nodes()[place]] + axis,
+              root * outer.vector(place)[axis]);
+      }
     }
-    matrix_.valuePtr()[*place++] = weight < 0.0 ? 1.0 : -1.0;
-    expected_negative_ += weight < 0.0 ? 0 : 1;
+    lower(of_outer_[k], of_outer_[k], signOf(weight));
   }
 }
 

@@ -14,7 +14,8 @@ namespace soft_tissue
  *   [ B  -S  ],       S = sign D,
  *
  * whose first rows come to A + G^T D G. That matrix is positive definite exactly where the pivots
- * have the signs of -S, and no others below zero.
+ * have the signs of -S, and no others below zero. Unknowns are eliminated node by node; that of an
+ * outer product right after a node that all of its nodes are neighbours of, so it couples no more.
  */
 class Cholesky : public LinearSolver
 {
@@ -27,24 +28,28 @@ class Cholesky : public LinearSolver
   double workOf(const BlockMatrix& a);
 
  private:
+  using Ordering = Eigen::NaturalOrdering<int>;
   /** Knows how much its columns will hold. */
-  struct Factor : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>
+  struct Factor : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Ordering>
   {
     double work() const { return m_nonZerosPerCol.cast<double>().squaredNorm(); }
   };
 
   bool hasPatternOf(const BlockMatrix& a) const;
   void analyse(const BlockMatrix& a);
+  void orderUnknowns(const BlockMatrix& a);
   Index placeOf(int row, int column) const;
-  void fill(const BlockMatrix& a);
+  template <typename Visit>
+  void forEachNumber(const BlockMatrix& a, const Visit& visit) const;
 
   std::vector<Index> offsets_, columns_;            ///< the pattern analysed
   std::vector<Edge> coupled_;                       ///< and its couplings
   std::vector<Index> outer_offsets_, outer_nodes_;  ///< and its outer products
-  /** Where in matrix_ the numbers of each block and column begin; then those of outer products. */
-  std::vector<Index> places_;
-  Eigen::SparseMatrix<double> matrix_;
-  Eigen::Index expected_negative_ = 0;  ///< pivots
+  std::vector<Index> first_of_node_;                ///< of its three unknowns
+  std::vector<Index> of_outer_;                     ///< unknown of each outer product
+  std::vector<Index> places_;                       ///< in matrix_, see forEachNumber()
+  Eigen::SparseMatrix<double> matrix_;              ///< its lower triangle
+  Eigen::Index expected_negative_ = 0;              ///< pivots
   Eigen::VectorXd right_, solution_;
   Factor factor_;
   std::unique_ptr<LinearSolver> iterative_ = makePcg();

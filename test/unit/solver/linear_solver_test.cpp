@@ -31,7 +31,8 @@ class EveryLinearSolver : public ::testing::TestWithParam<SolverCase>
 
 INSTANTIATE_TEST_SUITE_P(All, EveryLinearSolver,
                          ::testing::Values(SolverCase{"pcg", makePcg},
-                                           SolverCase{"cholesky", makeCholesky}),
+                                           SolverCase{"cholesky", makeCholesky},
+                                           SolverCase{"automatic", makeAutomatic}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 /** Where the nodes of a matrix may stand, m. */
