@@ -171,7 +171,7 @@ TEST(QuadraticFiles, OfOneFormatAreNotReadInTheOrderOfAnother)
   const std::string curved =
       "quadratic tet 1 of the file is curved: the node between its vertices "
       "2 and 4 is ";
-  expectRefusal(folder.write("a.msh", QuadraticFile(sample(), kVtkOrder).gmsh()), ":22: ", curved);
+  expectRefusal(folder.write("a.msh", QuadraticFile(sample(), kVtkOrder).gmsh()), ":24: ", curved);
   expectRefusal(folder.write("a.vtk", QuadraticFile(sample(), kGmshOrder).vtk()), ":", curved);
 }
 
@@ -186,7 +186,7 @@ TEST(QuadraticFiles, AreRefusedWhereTheyAreCurved)
   middle += Vec3(0.0, 0.0, 0.9e-3 * length);
   EXPECT_EQ(loadTetMesh(folder.write("a.msh", file.gmsh()), 1.0).mesh.tets.size(), 2U);
   middle = straight + Vec3(0.0, 0.0, 0.02 * length);
-  expectRefusal(folder.write("a.msh", file.gmsh()), ":23: ",
+  expectRefusal(folder.write("a.msh", file.gmsh()), ":25: ",
                 "quadratic tet 2 of the file is curved: the node between its vertices 1 and 4 is "
                 "0.02 edge lengths off the middle, must be in [0, 0.001]");
   middle = straight;
