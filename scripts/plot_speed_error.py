@@ -101,7 +101,7 @@ def plot_fem(rows, case, path):
     for number, (name, line) in enumerate(kinds.items()):
         colour = plt.cm.tab20(number % 20)
         axis.loglog([row["ms"] for row in line], [max(row["error"], ROUNDING) for row in line],
-                    "o" if line[0]["element"] == "tet4" else "s", color=colour, label=name)
+                    {"tet4": "o", "tet4_anp": "^"}.get(line[0]["element"], "s"), color=colour, label=name)
     for row in of_case:
         axis.annotate(row["nodes"], (row["ms"], max(row["error"], ROUNDING)), fontsize=6)
         if row["default"] == "1":

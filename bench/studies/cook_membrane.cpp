@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "soft_tissue_sim/energy/mass_terms.h"
+#include "soft_tissue_sim/energy/nodal_pressure_elasticity.h"
 #include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/mesh/generate.h"
@@ -116,6 +117,10 @@ FemResult cookMembrane(const FemChoice& choice, int cells, double poisson_ratio)
   {
     elasticity = std::make_unique<QuadraticTetElasticity>(*quadratic, choice.law, stiffness, 0);
   }
+  else if (choice.element == ElementKind::tet4_anp)
+  {
+    elasticity = std::make_unique<NodalPressureElasticity>(mesh, choice.law, stiffness, 0);
+  }
   else
   {
     elasticity = std::make_unique<TetElasticity>(mesh, choice.law, stiffness, 0);
@@ -136,8 +141,7 @@ FemResult cookMembrane(const FemChoice& choice, int cells, double poisson_ratio)
   PlaneSprings plane(rest);
   NewtonSolver newton(quadratic != nullptr ? nodeNeighbours(count, quadratic->elements)
                                            : nodeNeighbours(count, mesh.tets),
-                      clamped,
-                      choice.linear == LinearSolverKind::cholesky ? makeCholesky() : makePcg());
+                      clamped, makeLinearSolver(choice.linear));
   NewtonOptions options;
   options.tolerance = choice.tolerance;
   options.max_iterations = 50;

@@ -16,7 +16,9 @@ namespace soft_tissue::studies
 {
 namespace
 {
-constexpr LinearSolverKind kLinearSolvers[] = {LinearSolverKind::pcg, LinearSolverKind::cholesky};
+constexpr LinearSolverKind kLinearSolvers[] = {LinearSolverKind::automatic,
+                                               LinearSolverKind::cholesky};
+constexpr ElementKind kElements[] = {ElementKind::tet4, ElementKind::tet4_anp, ElementKind::tet10};
 constexpr int kMostTurns = 3;
 constexpr double kLongTurn = 0.5;  // s, of the thread: no more turns after one
 
@@ -98,7 +100,7 @@ void compareMeshes(FemTable& table, const std::string& folder, const Sag& how, b
     {
       throw Error("the beam to compare with did not converge");
     }
-    for (const ElementKind element : {ElementKind::tet4, ElementKind::tet10})
+    for (const ElementKind element : kElements)
     {
       const Sizes sizes = quick                           ? Sizes{0}
                           : element == ElementKind::tet10 ? Sizes{0, 1, 2}
@@ -185,12 +187,14 @@ void compareWithCook(FemTable& table, bool quick)
   {
     for (const MaterialModel law : {MaterialModel::neo_hookean, MaterialModel::corotated})
     {
-      for (const LinearSolverKind linear : kLinearSolvers)
+      for (const LinearSolverKind linear :
+           {LinearSolverKind::automatic, LinearSolverKind::pcg, LinearSolverKind::cholesky})
       {
-        for (const ElementKind element : {ElementKind::tet4, ElementKind::tet10})
+        for (const ElementKind element : kElements)
         {
-          const int first = quick ? 2 : element == ElementKind::tet4 ? 8 : 4;
-          for (int cells = first; cells <= (quick ? 4 : 4 * first); cells *= 2)
+          const int first = quick ? 2 : element == ElementKind::tet10 ? 4 : 8;
+          const int last = quick ? 4 : element == ElementKind::tet4_anp ? 8 * first : 4 * first;
+          for (int cells = first; cells <= last; cells *= 2)
           {
             const FemChoice choice{element, law, linear, SolverConfig().tolerance};
             FemResult result = cookMembrane(choice, cells, row.poisson_ratio);

@@ -18,6 +18,18 @@ const char* nameOf(MaterialModel law)
                                 "corotated",   "st_venant_kirchhoff", "linear"};
   return kNames[static_cast<int>(law)];
 }
+
+const char* nameOf(ElementKind element)
+{
+  const char* const kNames[] = {"tet4", "tet4_anp", "tet10", "auto"};
+  return kNames[static_cast<int>(element)];
+}
+
+const char* nameOf(LinearSolverKind linear)
+{
+  const char* const kNames[] = {"auto", "pcg", "cholesky"};
+  return kNames[static_cast<int>(linear)];
+}
 }  // namespace
 
 FemTable::FemTable(const std::string& folder) : path_(folder + "/fem.csv"), stream_(path_)
@@ -44,14 +56,12 @@ void FemTable::finishCase(const std::string& name)
     const TissueConfig tissue;
     const SolverConfig solver;
     const bool is_default = result.other.empty() && choice.element == tissue.element &&
-                            choice.law == tissue.material.model &&
-                            choice.linear == LinearSolverKind::pcg &&
+                            choice.law == tissue.material.model && choice.linear == solver.linear &&
                             choice.tolerance == solver.tolerance;
     char line[300];
     std::snprintf(line, sizeof(line), "%s,%s,%s,%s,%s,%g,%zu,%zu,%.4g,%.6g,%.4g,%d,%d,%d\n",
                   name.c_str(), result.other.empty() ? "scene" : result.other.c_str(),
-                  choice.element == ElementKind::tet4 ? "tet4" : "tet10", nameOf(choice.law),
-                  choice.linear == LinearSolverKind::cholesky ? "cholesky" : "pcg",
+                  nameOf(choice.element), nameOf(choice.law), nameOf(choice.linear),
                   choice.tolerance, result.tets, result.nodes, result.ms, result.found,
                   result.error, result.converged ? 1 : 0, pareto ? 1 : 0, is_default ? 1 : 0);
     stream_ << line << std::flush;

@@ -13,7 +13,7 @@ struct FemChoice
 {
   ElementKind element = ElementKind::tet4;
   MaterialModel law = MaterialModel::neo_hookean;
-  LinearSolverKind linear = LinearSolverKind::pcg;  ///< automatic is the same
+  LinearSolverKind linear = LinearSolverKind::automatic;
   double tolerance = 1e-3;
 };
 

@@ -61,6 +61,13 @@ void addMaterials(HardCatalogue& all)
     body(one).material.poisson_ratio = ratio;
     one.begin = bent;
   }
+  for (const double ratio : {0.45, 0.4999})
+  {
+    HardCase& one = all.addBar(labelled("nodal pressure, nu %g, let go bent", ratio));
+    body(one).element = ElementKind::tet4_anp;
+    body(one).material.poisson_ratio = ratio;
+    one.begin = bent;
+  }
   for (const bool soft_foot : {true, false})
   {
     TetMesh mesh = makeBox({6, 2, 2}, {kLength, kSide, kSide});
@@ -86,7 +93,7 @@ void addMaterials(HardCatalogue& all)
   }
 }
 
-/** All ways a body can be ruined, by law. */
+/** All ways a body can be ruined, by law and element. */
 void addRuins(HardCatalogue& all)
 {
   struct Ruin
@@ -104,15 +111,22 @@ void addRuins(HardCatalogue& all)
        Ending::returns},
       {"inside out", [=](const Vec3& p) { return Vec3(-p.x(), p.y(), p.z()); }, Ending::settles},
   };
-  for (const MaterialModel model :
-       {MaterialModel::neo_hookean, MaterialModel::corotated, MaterialModel::exponential})
+  struct Kind
   {
-    const std::string law = model == MaterialModel::neo_hookean ? "neo_hookean, "
-                            : model == MaterialModel::corotated ? "corotated, "
-                                                                : "exponential, ";
+    const char* name;
+    MaterialModel model;
+    ElementKind element;
+  };
+  for (const Kind& kind : {Kind{"neo_hookean, ", MaterialModel::neo_hookean, ElementKind::tet4},
+                           {"corotated, ", MaterialModel::corotated, ElementKind::tet4},
+                           {"exponential, ", MaterialModel::exponential, ElementKind::tet4},
+                           {"nodal pressure, ", MaterialModel::neo_hookean, ElementKind::tet4_anp}})
+  {
+    const MaterialModel model = kind.model;
     const auto addRuin = [&](const std::string& name) -> HardCase& {
-      HardCase& one = all.addBar(law + name);
+      HardCase& one = all.addBar(kind.name + name);
       body(one).material.model = model;
+      body(one).element = kind.element;
       if (model == MaterialModel::exponential)
       {
         body(one).material.stiffening = 2.0;

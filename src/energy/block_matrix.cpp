@@ -51,6 +51,7 @@ void BlockMatrix::setZero()
   }
   couplings_.clear();
   next_coupling_.clear();
+  outer_.clear();
 }
 
 Index BlockMatrix::find(Index row, Index column) const

@@ -18,10 +18,10 @@ Elasticity::Elasticity(const TetKernels& kernels, const TetMesh& rest,
     {
       const Lame lame = lameFrom(parameters[tet].young_modulus, parameters[tet].poisson_ratio);
       double of_tet[kMaterialConstants];
-      kernels.constants({lame.mu, lame.lambda, parameters[tet].stiffening}, of_tet);
+      kernels.constants({lame.mu, ownLambda(lame.lambda), parameters[tet].stiffening}, of_tet);
       for (int k = 0; k < kMaterialConstants; ++k)
       {
-        constants()[8 * (kMaterialConstants * (lane / kTetLanes) + k) + lane % kTetLanes] =
+        constants()[8 * (kernels.constants_each * (lane / kTetLanes) + k) + lane % kTetLanes] =
             of_tet[k];
       }
     }
@@ -50,6 +50,7 @@ void Elasticity::vonMises(const Points& x, std::vector<float>& stress)
 {
   const auto parts = static_cast<std::size_t>(kernels().parts);
   von_mises_.resize(parts * det_f_.size());
+  prepare(x);
   state(x, von_mises_.data());
   stress.resize(parts * (1 + *std::max_element(tets().begin(), tets().end())));
   for (std::size_t lane = 0; lane < det_f_.size(); ++lane)

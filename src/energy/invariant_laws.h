@@ -73,6 +73,16 @@ struct NeoHookeanLog : OfInvariants<NeoHookeanLog>
     return {c[0], Pack{}, volumetric, (c[1] * log_j - c[0]) / at + below * volumetric};
   }
 
+  /** What lambda weighs of h. */
+  static VolumeEnergy volumeEnergy(Pack j)
+  {
+    const Pack at = max(j, splat(kLeast));
+    const Pack log_j = log(at), below = min(j - kLeast, Pack{});
+    const Pack slope = log_j / at, curvature = (1.0 - log_j) / (at * at);
+    return {0.5 * log_j * log_j + below * (slope + 0.5 * below * curvature),
+            slope + below * curvature, curvature};
+  }
+
  private:
   /** h'' */
   static Pack bend(Pack log_j, Pack at, const Pack* c)

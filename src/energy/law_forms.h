@@ -47,12 +47,35 @@ struct InvariantStiffness
   Pack pressure;
 };
 
-/** What follows from a law's energyOf(I_C, J) and its derivatives(I_C, J). */
+/** The part of a law that lambda weighs, as a function of its dilatation, and two derivatives. */
+struct VolumeEnergy
+{
+  Pack value;
+  Pack slope;
+  Pack curvature;
+};
+
+/** That of laws whose lambda weighs half the square of a dilatation. */
+inline VolumeEnergy halfSquare(Pack dilatation)
+{
+  return {0.5 * dilatation * dilatation, dilatation, splat(1.0)};
+}
+
+/**
+ * What follows from a law's energyOf(I_C, J) and its derivatives(I_C, J).
+ *
+ * Every law's energy is one at lambda = 0 plus lambda times volumeEnergy(dilatation(F)). So a
+ * dilatation can be taken of more than one tet, see WithPressure.
+ */
 template <typename Law>
 struct OfInvariants
 {
   static constexpr Form kForm = Form::invariants;
   static constexpr int kConstants = kMaterialConstants;
+
+  static Pack dilatation(const PackMat& f) { return determinant(f); }
+  static PackMat dilatationGradient(const PackMat& f) { return cofactor(f); }
+  static VolumeEnergy volumeEnergy(Pack j) { return halfSquare(j - 1.0); }
 
   static Pack energy(const PackMat& f, const Pack* c)
   {
@@ -97,6 +120,26 @@ struct OfInvariants
       p.sum[i] = k.m + k.pressure * s[i];
     }
     return p;
+  }
+};
+
+/** A law of the invariants with one more constant: a pressure that acts on the dilatation, which
+ * the energy leaves out. */
+template <typename Law>
+struct WithPressure : OfInvariants<WithPressure<Law>>
+{
+  static constexpr double kTilt = Law::kTilt;
+  static constexpr int kConstants = kMaterialConstants + 1;
+
+  static VolumeEnergy volumeEnergy(Pack j) { return Law::volumeEnergy(j); }
+  static void constants(const LawParameters& of, double* c) { Law::constants(of, c); }
+  static Pack energyOf(Pack ic, Pack j, const Pack* c) { return Law::energyOf(ic, j, c); }
+
+  static InvariantStiffness derivatives(Pack ic, Pack j, const Pack* c)
+  {
+    InvariantStiffness k = Law::derivatives(ic, j, c);
+    k.pressure += c[kMaterialConstants];
+    return k;
   }
 };
 

@@ -31,5 +31,17 @@ decltype(auto) withLaw(MaterialModel model, const Use& use)
   }
 }
 
+/** The law that has one more constant, a pressure, and is otherwise the same. */
+template <typename Law>
+struct Pressed
+{
+  using Type = WithPressure<Law>;
+};
+template <template <typename> class Law>
+struct Pressed<Law<OfLame>>
+{
+  using Type = Law<OfLameAndPressure>;
+};
+
 }  // namespace SOFT_TISSUE_KERNELS
 }  // namespace soft_tissue

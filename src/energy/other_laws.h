@@ -9,7 +9,8 @@ namespace soft_tissue
 {
 namespace SOFT_TISSUE_KERNELS
 {
-/** The constants of a law that takes the Lame parameters as they are. */
+/** The constants of a law that takes the Lame parameters as they are, and its pressure, the
+ * derivative of its energy by the dilatation. */
 struct OfLame
 {
   static constexpr int kConstants = kMaterialConstants;
@@ -21,13 +22,35 @@ struct OfLame
     c[2] = 0.0;
     c[3] = 0.0;
   }
+
+  static Pack pressure(Pack dilatation, const Pack* c) { return c[1] * dilatation; }
+  static VolumeEnergy volumeEnergy(Pack dilatation) { return halfSquare(dilatation); }
+};
+
+/** The same with one more constant: a pressure more, which the energy leaves out. */
+struct OfLameAndPressure : OfLame
+{
+  static constexpr int kConstants = kMaterialConstants + 1;
+
+  static Pack pressure(Pack dilatation, const Pack* c)
+  {
+    return c[1] * dilatation + c[kMaterialConstants];
+  }
 };
 
 /** Corotated: mu |S - I|^2 + lambda/2 tr(S - I)^2 with the polar stretch S (a reflection makes one
  * stretch negative). */
-struct Corotated : OfLame
+template <typename Base>
+struct CorotatedLaw : Base
 {
   static constexpr Form kForm = Form::stretches;
+
+  static Pack dilatation(const PackMat& f)
+  {
+    const Svd svd = signedSvd(f);
+    return svd.sigma[0] + svd.sigma[1] + svd.sigma[2] - 3.0;
+  }
+  static PackMat dilatationGradient(const PackMat& f) { return rotation(signedSvd(f)); }
 
   static Pack energy(const PackMat& f, const Pack* c)
   {
@@ -41,15 +64,14 @@ struct Corotated : OfLame
   {
     const Svd svd = signedSvd(f);
     const Pack trace = svd.sigma[0] + svd.sigma[1] + svd.sigma[2] - 3.0;
-    const Pack pressure = c[1] * trace - 2.0 * c[0];
+    const Pack pressure = Base::pressure(trace, c) - 2.0 * c[0];
+    const PackMat r = rotation(svd);
     PackMat p;
     for (int i = 0; i < 3; ++i)
     {
       for (int j = 0; j < 3; ++j)
       {
-        const Pack r = svd.u.m[i][0] * svd.v.m[j][0] + svd.u.m[i][1] * svd.v.m[j][1] +
-                       svd.u.m[i][2] * svd.v.m[j][2];
-        p.m[i][j] = 2.0 * c[0] * f.m[i][j] + pressure * r;
+        p.m[i][j] = 2.0 * c[0] * f.m[i][j] + pressure * r.m[i][j];
       }
     }
     return p;
@@ -58,7 +80,7 @@ struct Corotated : OfLame
   static PrincipalStiffness principal(const Pack* s, const Pack* c)
   {
     const Pack zero = {};
-    const Pack spin = 2.0 * (c[1] * (s[0] + s[1] + s[2] - 3.0) - 2.0 * c[0]);
+    const Pack spin = 2.0 * (Base::pressure(s[0] + s[1] + s[2] - 3.0, c) - 2.0 * c[0]);
     PrincipalStiffness k;
     for (int i = 0; i < 3; ++i)
     {
@@ -74,12 +96,31 @@ struct Corotated : OfLame
     }
     return k;
   }
+
+ private:
+  static PackMat rotation(const Svd& svd)
+  {
+    PackMat r;
+    for (int i = 0; i < 3; ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        r.m[i][j] = svd.u.m[i][0] * svd.v.m[j][0] + svd.u.m[i][1] * svd.v.m[j][1] +
+                    svd.u.m[i][2] * svd.v.m[j][2];
+      }
+    }
+    return r;
+  }
 };
 
 /** St Venant-Kirchhoff: mu |E|^2 + lambda/2 tr(E)^2 with Green's strain E = (F^T F - I) / 2. */
-struct StVenantKirchhoff : OfLame
+template <typename Base>
+struct StVenantKirchhoffLaw : Base
 {
   static constexpr Form kForm = Form::stretches;
+
+  static Pack dilatation(const PackMat& f) { return 0.5 * (frobeniusSquared(f) - 3.0); }
+  static PackMat dilatationGradient(const PackMat& f) { return f; }
 
   static Pack energy(const PackMat& f, const Pack* c)
   {
@@ -91,7 +132,7 @@ struct StVenantKirchhoff : OfLame
   static PackMat stress(const PackMat& f, const Pack* c)
   {
     const PackMat e = greenStrain(f);
-    const Pack pressure = c[1] * (e.m[0][0] + e.m[1][1] + e.m[2][2]);
+    const Pack pressure = Base::pressure(e.m[0][0] + e.m[1][1] + e.m[2][2], c);
     PackMat p;
     for (int i = 0; i < 3; ++i)
     {
@@ -109,7 +150,7 @@ struct StVenantKirchhoff : OfLame
   {
     const Pack squares[3] = {s[0] * s[0], s[1] * s[1], s[2] * s[2]};
     const Pack trace = 0.5 * (squares[0] + squares[1] + squares[2] - 3.0);
-    const Pack rest = c[1] * trace - c[0];
+    const Pack rest = Base::pressure(trace, c) - c[0];
     PrincipalStiffness k;
     for (int i = 0; i < 3; ++i)
     {
@@ -126,9 +167,21 @@ struct StVenantKirchhoff : OfLame
 };
 
 /** Linear: mu |e|^2 + lambda/2 tr(e)^2 with e = (F + F^T) / 2 - I. A rotation strains it. */
-struct Linear : OfLame
+template <typename Base>
+struct LinearLaw : Base
 {
   static constexpr Form kForm = Form::linear;
+
+  static Pack dilatation(const PackMat& f) { return f.m[0][0] + f.m[1][1] + f.m[2][2] - 3.0; }
+  static PackMat dilatationGradient(const PackMat&)
+  {
+    PackMat one;
+    for (int k = 0; k < 9; ++k)
+    {
+      one.m[k / 3][k % 3] = splat(k % 4 == 0 ? 1.0 : 0.0);
+    }
+    return one;
+  }
 
   static Pack energy(const PackMat& f, const Pack* c)
   {
@@ -140,7 +193,7 @@ struct Linear : OfLame
   static PackMat stress(const PackMat& f, const Pack* c)
   {
     PackMat p = smallStrain(f);
-    const Pack pressure = c[1] * (p.m[0][0] + p.m[1][1] + p.m[2][2]);
+    const Pack pressure = Base::pressure(p.m[0][0] + p.m[1][1] + p.m[2][2], c);
     for (int k = 0; k < 9; ++k)
     {
       const Pack shear = 2.0 * c[0] * p.m[k / 3][k % 3];
@@ -163,6 +216,10 @@ struct Linear : OfLame
     return e;
   }
 };
+
+using Corotated = CorotatedLaw<OfLame>;
+using StVenantKirchhoff = StVenantKirchhoffLaw<OfLame>;
+using Linear = LinearLaw<OfLame>;
 
 }  // namespace SOFT_TISSUE_KERNELS
 }  // namespace soft_tissue

@@ -151,6 +151,7 @@ const TetKernels& quadraticMemoryKernels()
                                      quadraticStiffness<StrainMemory, true>,
                                      nullptr,
                                      quadraticRemember<StrainMemory>,
+                                     nullptr,
                                      nullptr};
   return kernels;
 }
@@ -171,7 +172,8 @@ const TetKernels& quadraticKernelsOf()
                                      quadraticStiffness<Material, true>,
                                      quadraticState<Material>,
                                      quadraticRemember<Material>,
-                                     &quadraticMemoryKernels()};
+                                     &quadraticMemoryKernels(),
+                                     nullptr};
   return kernels;
 }
 

@@ -249,7 +249,8 @@ class PrincipalBlocks
 class HookeBlocks
 {
  public:
-  explicit HookeBlocks(const Lanes<Linear>& t)
+  template <typename Material>
+  explicit HookeBlocks(const Lanes<Material>& t)
       : gradients_(t.gradients), mu_(t.volume * t.constants[0]), lambda_(t.volume * t.constants[1])
   {}
 

@@ -5,16 +5,19 @@ namespace soft_tissue
 namespace kernels_baseline
 {
 const TetKernels& kernelsFor(MaterialModel model);
+const TetKernels& pressedKernelsFor(MaterialModel model);
 const TetKernels& quadraticKernelsFor(MaterialModel model);
 }  // namespace kernels_baseline
 namespace kernels_v3
 {
 const TetKernels& kernelsFor(MaterialModel model);
+const TetKernels& pressedKernelsFor(MaterialModel model);
 const TetKernels& quadraticKernelsFor(MaterialModel model);
 }  // namespace kernels_v3
 namespace kernels_v4
 {
 const TetKernels& kernelsFor(MaterialModel model);
+const TetKernels& pressedKernelsFor(MaterialModel model);
 const TetKernels& quadraticKernelsFor(MaterialModel model);
 }  // namespace kernels_v4
 
@@ -28,6 +31,19 @@ const TetKernels& tetKernels(MaterialModel model, InstructionSet set)
       return kernels_v3::kernelsFor(model);
     default:
       return kernels_baseline::kernelsFor(model);
+  }
+}
+
+const TetKernels& pressedTetKernels(MaterialModel model, InstructionSet set)
+{
+  switch (set)
+  {
+    case InstructionSet::x86_64_v4:
+      return kernels_v4::pressedKernelsFor(model);
+    case InstructionSet::x86_64_v3:
+      return kernels_v3::pressedKernelsFor(model);
+    default:
+      return kernels_baseline::pressedKernelsFor(model);
   }
 }
 

@@ -1,70 +1,16 @@
 /**
- * Element loops over groups of tets, compiled once per instruction set by tet_kernels_*.cpp, which
- * define SOFT_TISSUE_KERNELS (a namespace of their own) and SOFT_TISSUE_LANES (doubles worked on at
- * once, a divisor of 8).
+ * The kernels of linear tets, compiled once per instruction set by tet_kernels_*.cpp, which define
+ * SOFT_TISSUE_KERNELS (a namespace of their own) and SOFT_TISSUE_LANES (doubles worked on at once,
+ * a divisor of 8).
  */
 #pragma once
 
-#include "tet_lanes.h"
-#include "tet_stiffness_impl.h"
+#include "tet_loops.h"
 
 namespace soft_tissue
 {
 namespace SOFT_TISSUE_KERNELS
 {
-template <typename Material>
-void tetEnergy(const TetGroups& groups, Index begin, Index end, const double* x, double* energies)
-{
-  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
-    store(energies + 8 * static_cast<long>(group) + lane,
-          t.volume * Material::energy(t.f, t.constants));
-  });
-}
-
-template <typename Material>
-void tetGradient(const TetGroups& groups, Index begin, Index end, const double* x, double* gradient,
-                 double* energies)
-{
-  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
-    store(energies + 8 * static_cast<long>(group) + lane,
-          t.volume * Material::energy(t.f, t.constants));
-    const PackMat p = Material::stress(t.f, t.constants);
-    Pack g[padded(12)];
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int node = 1; node < 4; ++node)
-      {
-        const Pack* b = t.gradients.m[node - 1];
-        g[3 * node + i] = t.volume * (p.m[i][0] * b[0] + p.m[i][1] * b[1] + p.m[i][2] * b[2]);
-      }
-      g[i] = -(g[3 + i] + g[6 + i] + g[9 + i]);
-    }
-    scatter<4>(groups, group, lane, g, gradient);
-  });
-}
-
-template <typename Material>
-void tetState(const TetGroups& groups, Index begin, Index end, const double* x, double* det_f,
-              double* von_mises)
-{
-  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
-    const long at = 8 * static_cast<long>(group) + lane;
-    store(det_f + at, determinant(t.f));
-    if (von_mises != nullptr)
-    {
-      store(von_mises + at, vonMises<Material>(t.f, t.constants));
-    }
-  });
-}
-
-template <typename Material>
-void tetRemember(const TetGroups& groups, Index begin, Index end, const double* x, double* six)
-{
-  forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
-    remember<Material>(t.f, t.constants, six + 6 * kTetLanes * static_cast<long>(group) + lane);
-  });
-}
-
 const TetKernels& memoryKernels()
 {
   static const TetKernels kernels = {4,
@@ -80,6 +26,7 @@ const TetKernels& memoryKernels()
                                      tetStiffness<StrainMemory, true>,
                                      nullptr,
                                      tetRemember<StrainMemory>,
+                                     nullptr,
                                      nullptr};
   return kernels;
 }
@@ -100,7 +47,8 @@ const TetKernels& kernelsOf()
                                      tetStiffness<Material, true>,
                                      tetState<Material>,
                                      tetRemember<Material>,
-                                     &memoryKernels()};
+                                     &memoryKernels(),
+                                     nullptr};
   return kernels;
 }
 

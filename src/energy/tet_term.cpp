@@ -78,14 +78,16 @@ void TetTerm::addTet(const TetMesh& rest, Index t, const Index* vertices, std::s
 
 void TetTerm::setVolumes(const std::vector<double>& volumes, double factor)
 {
+  volume_factor_ = factor;
   for (std::size_t lane = 0; lane < volumes.size(); ++lane)
   {
     volumes_[lane] = factor * volumes[lane];
   }
 }
 
-void TetTerm::remember(const Points& x, std::vector<double>& six) const
+void TetTerm::remember(const Points& x, std::vector<double>& six)
 {
+  prepare(x);
   six.resize(6 * static_cast<std::size_t>(kernels_->points) * chunks_.tets.size());
   parallelFor(group_count_, kGroupGrain, [&](Index begin, Index end) {
     kernels_->remember(groups_, begin, end, x.data()->data(), six.data());
@@ -155,13 +157,14 @@ double TetTerm::sumOfEnergies(Index begin, Index end) const
 
 double TetTerm::value(const Points& x)
 {
-  return parallelSum(group_count_, kGroupGrain, [&](Index begin, Index end) {
-    kernels_->energy(groups_, begin, end, x.data()->data(), energies_.data());
-    return sumOfEnergies(begin, end);
-  });
+  const double shared = prepare(x);
+  return shared + parallelSum(group_count_, kGroupGrain, [&](Index begin, Index end) {
+           kernels_->energy(groups_, begin, end, x.data()->data(), energies_.data());
+           return sumOfEnergies(begin, end);
+         });
 }
 
-void TetTerm::addGradient(const Points& x, Points& gradient)
+void TetTerm::addForces(const Points& x, Points& gradient)
 {
   forGroups([&](Index begin, Index end) {
     kernels_->gradient(groups_, begin, end, x.data()->data(), gradient.data()->data(),
@@ -169,11 +172,18 @@ void TetTerm::addGradient(const Points& x, Points& gradient)
   });
 }
 
+void TetTerm::addGradient(const Points& x, Points& gradient)
+{
+  prepare(x);
+  addForces(x, gradient);
+}
+
 double TetTerm::valueAndGradient(const Points& x, Points& gradient)
 {
-  addGradient(x, gradient);
-  return parallelSum(group_count_, kGroupGrain,
-                     [&](Index begin, Index end) { return sumOfEnergies(begin, end); });
+  const double shared = prepare(x);
+  addForces(x, gradient);
+  return shared + parallelSum(group_count_, kGroupGrain,
+                              [&](Index begin, Index end) { return sumOfEnergies(begin, end); });
 }
 
 void TetTerm::addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian)
@@ -186,6 +196,7 @@ void TetTerm::addHessian(const Points& x, Curvature curvature, BlockMatrix& hess
   {
     findPositions(hessian);
   }
+  prepare(x);
   const auto add =
       curvature == Curvature::exact ? kernels_->stiffness : kernels_->projected_stiffness;
   forGroups([&](Index begin, Index end) {

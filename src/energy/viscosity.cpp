@@ -34,7 +34,7 @@ Viscosity::Viscosity(Elasticity& law, const std::vector<TetStiffnessParameters>&
     {
       const Lame lame = lameFrom(parameters[tet].young_modulus, parameters[tet].poisson_ratio);
       lame_[at] = viscosity_.stiffness_damping * lame.mu;
-      lame_[at + kTetLanes] = viscosity_.stiffness_damping * lame.lambda;
+      lame_[at + kTetLanes] = viscosity_.stiffness_damping * law_.ownLambda(lame.lambda);
     }
   }
 }

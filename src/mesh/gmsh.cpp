@@ -15,6 +15,7 @@ constexpr int kPoint = 15;
 constexpr int kTriangle = 2;
 constexpr int kQuadrangle = 3;
 constexpr int kTetrahedron = 4;
+constexpr int kQuadraticTetrahedron = 11;  // edges 01 12 02 03 23 13
 
 /** Curves and surfaces of any order among Gmsh's types; the rest are volumes. */
 bool isVolume(int type)
@@ -164,6 +165,12 @@ void GmshReader::addElement(int type, const std::vector<long long>& numbers, int
   if (type == kTetrahedron)
   {
     builder_.addTet({nodes[0], nodes[1], nodes[2], nodes[3]}, tag);
+  }
+  else if (type == kQuadraticTetrahedron)
+  {
+    builder_.addQuadraticTet({nodes[0], nodes[1], nodes[2], nodes[3], nodes[4], nodes[6], nodes[7],
+                              nodes[5], nodes[9], nodes[8]},
+                             tag);
   }
   else if (type == kTriangle || type == kQuadrangle)
   {

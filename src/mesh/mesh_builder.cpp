@@ -5,9 +5,17 @@
 #include <utility>
 
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/mesh/quadratic_tets.h"
 
 namespace soft_tissue
 {
+namespace
+{
+/** How far off the middle of an edge its node may be, in lengths of the edge: what single precision
+ * and a few digits make of it. */
+constexpr double kStraight = 1e-3;
+}  // namespace
+
 void MeshBuilder::addNode(double x, double y, double z)
 {
   constexpr double kFarthest_m = 1.0e6;
@@ -52,6 +60,72 @@ void MeshBuilder::addTet(const std::array<long long, 4>& nodes, int tag)
   tags_.push_back(tag);
 }
 
+void MeshBuilder::addQuadraticTet(const std::array<long long, 10>& nodes, int tag)
+{
+  addTet({nodes[0], nodes[1], nodes[2], nodes[3]}, tag);
+  const Tet& tet = tets_.back();
+  for (int edge = 0; edge < 6; ++edge)
+  {
+    const int* ends = kTetEdges[edge];
+    const Index middle = checkedNode(nodes[4 + edge]);
+    const Vec3 &a = nodes_[tet[ends[0]]], &b = nodes_[tet[ends[1]]];
+    const double off = (nodes_[middle] - 0.5 * (a + b)).norm() / (b - a).norm();
+    if (!(off <= kStraight))
+    {
+      cursor_->fail("quadratic tet " + std::to_string(tets_.size()) +
+                    " of the file is curved: the node between its vertices " +
+                    std::to_string(ends[0] + 1) + " and " + std::to_string(ends[1] + 1) + " is " +
+                    decimal(off) + " edge lengths off the middle, must be in [0, " +
+                    decimal(kStraight) +
+                    "]; mesh with straight edges (Gmsh: " + "Mesh.SecondOrderLinear = 1)");
+    }
+    middles_.push_back(middle);
+  }
+}
+
+/** Leaves vertices alone: quadratic elements have nodes of their own made from them. */
+void MeshBuilder::dropMiddles()
+{
+  if (middles_.empty())
+  {
+    return;
+  }
+  const std::size_t quadratic = middles_.size() / 6;
+  std::vector<char> dropped(nodes_.size(), 0);
+  for (const Index node : middles_)
+  {
+    dropped[node] = 1;
+  }
+  std::vector<Index> number(nodes_.size(), 0);
+  Points kept;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  {
+    number[i] = static_cast<Index>(kept.size());
+    if (dropped[i] == 0)
+    {
+      kept.push_back(nodes_[i]);
+    }
+  }
+  for (std::size_t t = 0; t < tets_.size(); ++t)
+  {
+    for (Index& node : tets_[t])
+    {
+      if (dropped[node] != 0)
+      {
+        throw Error(cursor_->path() + ": tet " + std::to_string(t + 1) +
+                    " has for a vertex what is in the middle of a quadratic tet's edge; where both "
+                    "meet they must share vertices");
+      }
+      node = number[node];
+    }
+  }
+  nodes_ = std::move(kept);
+  triangles_.clear();  // beside tets nobody asks for them
+  warn(std::to_string(quadratic) +
+       (quadratic == 1 ? " quadratic tet was" : " quadratic tets were") +
+       " read by their vertices; element tet10 puts nodes in the middle of edges again");
+}
+
 void MeshBuilder::addPolygon(const std::vector<long long>& nodes)
 {
   if (nodes.size() < 3)
@@ -72,8 +146,8 @@ void MeshBuilder::addPolygon(const std::vector<long long>& nodes)
 
 void MeshBuilder::refuseVolumeElement(const std::string& kind) const
 {
-  cursor_->fail("holds a volume element that is no 4-node tetrahedron (" + kind +
-                "); mesh with first-order tetrahedra only");
+  cursor_->fail("holds a volume element that is no 4- or 10-node tetrahedron (" + kind +
+                "); mesh with tetrahedra only");
 }
 
 void MeshBuilder::orientTets()
@@ -128,6 +202,7 @@ LoadedMesh MeshBuilder::finish()
     throw Error(cursor_->path() + ": is an empty mesh: it has " + std::to_string(nodes_.size()) +
                 " nodes, but no tetrahedra and no triangles");
   }
+  dropMiddles();
   orientTets();
   warnOfOddities();
   LoadedMesh loaded;

@@ -33,13 +33,19 @@ class MeshBuilder
   /** Adds a tet by file node numbers. @throws Error on an unknown or repeated node */
   void addTet(const std::array<long long, 4>& nodes, int tag);
 
+  /**
+   * Adds a quadratic tet by file node numbers, in QuadraticTet's order, as a tet of its vertices.
+   * @throws Error on an unknown or repeated node, or one that is off the middle of its edge
+   */
+  void addQuadraticTet(const std::array<long long, 10>& nodes, int tag);
+
   /** Adds a polygon by file node numbers as a fan of triangles. @throws Error on an unknown node */
   void addPolygon(const std::vector<long long>& nodes);
 
   /** Notes a point or line element. */
   void addOther() { ++others_; }
 
-  /** Refuses a volume element that is no linear tet. @throws Error always */
+  /** Refuses a volume element that is no tet. @throws Error always */
   [[noreturn]] void refuseVolumeElement(const std::string& kind) const;
 
   /** The finished mesh: its tets, or its triangles if it has no tet. @throws Error if it has
@@ -49,6 +55,7 @@ class MeshBuilder
  private:
   Index checkedNode(long long number) const;
   void orientTets();
+  void dropMiddles();
   void warnOfOddities();
 
   FileCursor* cursor_;
@@ -57,6 +64,7 @@ class MeshBuilder
   Points nodes_;
   std::vector<Tet> tets_;
   std::vector<int> tags_;
+  std::vector<Index> middles_;  ///< of edges of quadratic tets, any number of times
   std::vector<Triangle> triangles_;
   std::size_t polygons_ = 0;
   std::size_t others_ = 0;

@@ -18,6 +18,9 @@ enum VtkType
   kPixel = 8,
   kQuad = 9,
   kTetra = 10,
+  kQuadraticEdge = 21,
+  kQuadraticTriangle = 22,
+  kQuadraticTetra = 24,  // edges 01 12 02 03 13 23
 };
 
 void needNodes(FileCursor& cursor, std::size_t found, std::size_t needed)
@@ -38,6 +41,8 @@ void addVtkCell(FileCursor& cursor, int type, const std::vector<long long>& node
     case kPolyVertex:
     case kLine:
     case kPolyLine:
+    case kQuadraticEdge:
+    case kQuadraticTriangle:
       builder.addOther();
       return;
     case kTriangle:
@@ -64,6 +69,12 @@ void addVtkCell(FileCursor& cursor, int type, const std::vector<long long>& node
     case kTetra:
       needNodes(cursor, nodes.size(), 4);
       builder.addTet({nodes[0], nodes[1], nodes[2], nodes[3]}, 0);
+      return;
+    case kQuadraticTetra:
+      needNodes(cursor, nodes.size(), 10);
+      builder.addQuadraticTet({nodes[0], nodes[1], nodes[2], nodes[3], nodes[4], nodes[6], nodes[7],
+                               nodes[5], nodes[8], nodes[9]},
+                              0);
       return;
     default:
       builder.refuseVolumeElement("VTK type " + std::to_string(type));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "element_choice.h"
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/geometry/triangle_tree.h"
@@ -187,7 +188,8 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
     }
   }
   const std::size_t elements = rest.tets.size();
-  if (config.element == ElementKind::tet10)
+  model.element = elementOf(config, elements);
+  if (model.element == ElementKind::tet10)
   {
     model.quadratic = withEdgeNodes(rest);
     rest = subdivided(*model.quadratic);

@@ -21,6 +21,7 @@ struct SoftBodyModel
 
 struct TissueModel : SoftBodyModel
 {
+  ElementKind element = ElementKind::tet4;        ///< never automatic
   std::optional<QuadraticTetMesh> quadratic;      ///< its elements, where they are not info.rest's
   std::vector<MaterialModel> laws;                ///< per element
   std::vector<TetStiffnessParameters> stiffness;  ///< per element

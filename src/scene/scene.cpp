@@ -28,6 +28,7 @@ void Scene::Impl::resetWorld()
   x_ = x_rest_;
   forTets([](TissueElasticity& tets) { tets.forget(); });
   setOff();
+  newton_->forget();
   for (std::size_t k = 0; k < tools_.size(); ++k)
   {
     detach(k, std::nullopt);

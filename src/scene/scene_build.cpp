@@ -212,8 +212,7 @@ void Scene::Impl::makeSolver()
   }
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
-  const bool direct = config_.solver.linear == LinearSolverKind::cholesky;
-  newton_ = std::make_unique<NewtonSolver>(all, held, direct ? makeCholesky() : makePcg());
+  newton_ = std::make_unique<NewtonSolver>(all, held, makeLinearSolver(config_.solver.linear));
   newton_options_.tolerance = config_.solver.tolerance;
   newton_options_.max_iterations = config_.solver.max_iterations;
   newton_options_.settled =

@@ -1,3 +1,4 @@
+#include "element_choice.h"
 #include "schema_sections.h"
 #include "soft_tissue_sim/field/distance_field.h"
 
@@ -163,9 +164,14 @@ const Section<TissueConfig>& tissueSection()
     Section<TissueConfig> keys("tissue", "A soft body.");
     addPlace(keys, "Its rest shape.");
     keys.optional("element", &TissueConfig::element,
-                  choice<ElementKind>({{"tet4", ElementKind::tet4}, {"tet10", ElementKind::tet10}}),
-                  "tet4: linear; tet10: quadratic, with a node in the middle of each edge of the "
-                  "mesh as well.");
+                  choice<ElementKind>({{"tet4", ElementKind::tet4},
+                                       {"tet4_anp", ElementKind::tet4_anp},
+                                       {"tet10", ElementKind::tet10},
+                                       {"auto", ElementKind::automatic}}),
+                  "tet4: linear; tet4_anp: linear with average nodal pressure, which does not "
+                  "lock near a Poisson's ratio of 0.5; tet10: quadratic, with a node in the middle "
+                  "of each edge of the mesh as well; auto: " +
+                      describeElementChoice() + ".");
     keys.optional("regions", &TissueConfig::regions, listOf(mapOf(regionSection())),
                   "Parts of other material; each tag once.");
     addHolds(keys);

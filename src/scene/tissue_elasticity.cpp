@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bodies.h"
+#include "soft_tissue_sim/energy/nodal_pressure_elasticity.h"
 #include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
 
@@ -36,6 +37,10 @@ std::unique_ptr<Elasticity> elasticityOf(const TissueModel& model, MaterialModel
   }
   const TetMesh& all = model.info.rest;
   const TetMesh mesh = {all.nodes, ofElements(all.tets, elements), ofElements(all.tags, elements)};
+  if (model.element == ElementKind::tet4_anp)
+  {
+    return std::make_unique<NodalPressureElasticity>(mesh, law, stiffness, first_node);
+  }
   return std::make_unique<TetElasticity>(mesh, law, stiffness, first_node);
 }
 }  // namespace

@@ -162,6 +162,14 @@ void NewtonSolver::assemble(const std::vector<EnergyTerm*>& terms, const Points&
       coupling.block.setZero();
     }
   }
+  OuterProducts& outer = hessian_.outer();
+  for (std::size_t place = 0; place < outer.nodes().size(); ++place)
+  {
+    if (is_fixed_[outer.nodes()[place]])
+    {
+      std::fill_n(outer.vector(static_cast<Index>(place)), 3, 0.0);
+    }
+  }
   {
     const ScopedTimer timer(report.linear_s);
     linear_->setMatrix(hessian_, x);

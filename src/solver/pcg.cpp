@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "coupling_rows.h"
+#include "outer_rows.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
 #include "soft_tissue_sim/solver/pcg_kernels.h"
@@ -74,13 +75,16 @@ class Conjugator
     const Index n = a.rows();
     loaded_ = true;
     couplings_.load(a.couplings());
+    outer_.load(a.outer(), n);
     values_.resize(a.values().size());
     inverse_.resize(9 * static_cast<std::size_t>(n) + 1);
     parallelFor(n, kGrain, [&](Index begin, Index end) {
       for (Index row = begin; row < end; ++row)
       {
         loadRow(a, row);
-        const Mat3 inverse = Eigen::Map<const Mat3>(a.block(a.diagonal(row))).inverse();
+        Mat3 diagonal = Eigen::Map<const Mat3>(a.block(a.diagonal(row)));
+        outer_.addDiagonal(row, diagonal.data());
+        const Mat3 inverse = diagonal.inverse();
         const bool usable = inverse.allFinite();
         for (int k = 0; k < 9; ++k)
         {
@@ -148,6 +152,10 @@ class Conjugator
         return kernels.multiply(rows, begin, end, p, q);
       });
       curvature += couplings_.addProduct(kernels, p, q);
+      if (!outer_.empty())
+      {
+        curvature += outer_.addProduct(p, q);
+      }
       if (!(curvature > 0.0))
       {
         return {iteration, 1.0, true, false};
@@ -202,6 +210,7 @@ class Conjugator
   bool loaded_ = false;
   std::vector<Real> values_;  ///< the matrix, both triangles
   CouplingRows<Real> couplings_;
+  OuterRows<Real> outer_;
   std::vector<Real> inverse_;  ///< of its diagonal blocks
   std::vector<Real> residual_, direction_, image_, solution_;
   NodeGroups<Real> groups_ = {};
@@ -230,6 +239,8 @@ class Pcg : public LinearSolver
                ? single_.solve(*matrix_, b, tolerance, most_iterations, d)
                : double_.solve(*matrix_, b, tolerance, most_iterations, d);
   }
+
+  void forget() override { groups_ = RigidGroups(); }
 
  private:
   const BlockMatrix* matrix_ = nullptr;

@@ -211,6 +211,44 @@ bool RigidGroups::outdated(const BlockMatrix& a, const Points& x) const
   return false;
 }
 
+/** coarse += P^T G^T D G P: each vector meets the few groups its nodes are in. */
+void RigidGroups::addOuter(const OuterProducts& outer, Eigen::MatrixXd& coarse) const
+{
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(coarse.rows());
+  std::vector<Index> met;
+  for (Index k = 0; k < outer.size(); ++k)
+  {
+    met.clear();
+    for (Index place = outer.offsets()[k]; place < outer.offsets()[k + 1]; ++place)
+    {
+      const Index node = outer.nodes()[place], group = group_[node];
+      if (group == size())
+      {
+        continue;
+      }
+      const Vec3 g = Eigen::Map<const Vec3>(outer.vector(place));
+      sums.segment<3>(6 * group) += g;
+      sums.segment<3>(6 * group + 3) += Eigen::Map<const Vec3>(arms_.data() + 3 * node).cross(g);
+      if (std::find(met.begin(), met.end(), group) == met.end())
+      {
+        met.push_back(group);
+      }
+    }
+    for (const Index g : met)
+    {
+      for (const Index h : met)
+      {
+        coarse.block<6, 6>(6 * g, 6 * h) +=
+            outer.weights()[k] * sums.segment<6>(6 * g) * sums.segment<6>(6 * h).transpose();
+      }
+    }
+    for (const Index g : met)
+    {
+      sums.segment<6>(6 * g).setZero();
+    }
+  }
+}
+
 void RigidGroups::build(const BlockMatrix& a, const Points& x)
 {
   if (x.size() != built_at_.size())
@@ -245,6 +283,7 @@ void RigidGroups::build(const BlockMatrix& a, const Points& x)
   {
     add(coupling.row, coupling.column, coupling.block);
   }
+  addOuter(a.outer(), coarse);
   if (size() > 0)
   {
     coarse.diagonal().array() += kShift * coarse.diagonal().maxCoeff();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "soft_tissue_sim/energy/block_matrix.h"
@@ -63,6 +64,35 @@ inline void addRandomElements(const std::vector<Tet>& tets, unsigned seed, Block
           Eigen::Map<Mat3>(a.block(below)) += block;  // for those who read both triangles
         }
       }
+    }
+  }
+}
+
+/** Adds `count` random vectors of `nodes_each` nodes each, with weights of about `weight`. */
+inline void addRandomOuterProducts(int count, Index nodes_each, double weight, unsigned seed,
+                                   BlockMatrix& a)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Adjacency nodes;
+  nodes.offsets.push_back(0);
+  for (int k = 0; k < count; ++k)
+  {
+    std::set<Index> some;
+    while (static_cast<Index>(some.size()) < nodes_each)
+    {
+      some.insert(static_cast<Index>(random() % a.rows()));
+    }
+    nodes.items.insert(nodes.items.end(), some.begin(), some.end());
+    nodes.offsets.push_back(static_cast<Index>(nodes.items.size()));
+  }
+  const Index first = a.outer().append(nodes);
+  for (Index k = first; k < a.outer().size(); ++k)
+  {
+    a.outer().weights()[k] = weight * (1.5 + uniform(random));
+    for (Index i = 3 * a.outer().offsets()[k]; i < 3 * a.outer().offsets()[k + 1]; ++i)
+    {
+      a.outer().vector(0)[i] = uniform(random);
     }
   }
 }

@@ -79,6 +79,16 @@ inline Eigen::MatrixXd dense(const BlockMatrix& a)
     m.block<3, 3>(3 * c.row, 3 * c.column) += c.block;
     m.block<3, 3>(3 * c.column, 3 * c.row) += c.block.transpose();
   }
+  const OuterProducts& outer = a.outer();
+  for (Index k = 0; k < outer.size(); ++k)
+  {
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(m.rows());
+    for (Index place = outer.offsets()[k]; place < outer.offsets()[k + 1]; ++place)
+    {
+      g.segment<3>(3 * outer.nodes()[place]) += Eigen::Map<const Vec3>(outer.vector(place));
+    }
+    m += outer.weights()[k] * g * g.transpose();
+  }
   return m;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "soft_tissue_sim/energy/mass_terms.h"
+#include "soft_tissue_sim/energy/nodal_pressure_elasticity.h"
 #include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/mesh/generate.h"
@@ -76,7 +77,14 @@ class StrainedCube
     else
     {
       fine_ = tets_;
-      elasticity_ = std::make_unique<TetElasticity>(tets_, model, all, 0);
+      if (kind == ElementKind::tet4_anp)
+      {
+        elasticity_ = std::make_unique<NodalPressureElasticity>(tets_, model, all, 0);
+      }
+      else
+      {
+        elasticity_ = std::make_unique<TetElasticity>(tets_, model, all, 0);
+      }
       neighbours_ = nodeNeighbours(static_cast<Index>(fine_.nodes.size()), tets_.tets);
     }
   }
@@ -173,6 +181,7 @@ class HomogeneousStrain : public ::testing::TestWithParam<std::tuple<MaterialMod
 INSTANTIATE_TEST_SUITE_P(Laws, HomogeneousStrain,
                          ::testing::Combine(::testing::ValuesIn(kMaterialModels),
                                             ::testing::Values(ElementKind::tet4,
+                                                              ElementKind::tet4_anp,
                                                               ElementKind::tet10)));
 
 TEST_P(HomogeneousStrain, UniaxialStressIsThatOfTheLaw)

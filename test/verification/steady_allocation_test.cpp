@@ -166,11 +166,11 @@ TEST_P(SteadyAllocation, aStepInContactAllocatesNothing)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllKinds, SteadyAllocation,
-                         testing::Combine(testing::Values(1, 2),
-                                          testing::Values(ElementKind::tet4, ElementKind::tet10),
-                                          testing::Bool(),
-                                          testing::Values(Stepper::implicit_euler, Stepper::bdf2)));
+INSTANTIATE_TEST_SUITE_P(
+    AllKinds, SteadyAllocation,
+    testing::Combine(testing::Values(1, 2),
+                     testing::Values(ElementKind::tet4, ElementKind::tet4_anp, ElementKind::tet10),
+                     testing::Bool(), testing::Values(Stepper::implicit_euler, Stepper::bdf2)));
 
 TEST(SteadyAllocation, aStepThatSleepsAllocatesNothing)
 {

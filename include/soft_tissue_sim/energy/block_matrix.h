@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "soft_tissue_sim/energy/outer_products.h"
 #include "soft_tissue_sim/mesh/topology.h"
 
 namespace soft_tissue
@@ -19,7 +20,8 @@ struct Coupling
  * Square symmetric matrix of 3 x 3 blocks with a fixed pattern: one block row per node, a block for
  * each pair of nodes that share an element and for each node itself. The pattern has both
  * triangles; of the numbers those of blocks with row <= column count. Blocks outside the pattern,
- * which come and go with contact, are a list of couplings.
+ * which come and go with contact, are a list of couplings; and what couples all nodes of several
+ * elements are outer products. The matrix is the sum of all three.
  */
 class BlockMatrix
 {
@@ -29,7 +31,7 @@ class BlockMatrix
   explicit BlockMatrix(const Adjacency& neighbours);
 
   Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
-  /** All numbers, and no couplings. */
+  /** All numbers; no couplings, no outer products. */
   void setZero();
 
   /** Position of block (row, column) in blocks(), or -1 outside the pattern. O(log row length). */
@@ -53,6 +55,9 @@ class BlockMatrix
   const std::vector<Coupling>& couplings() const { return couplings_; }
   std::vector<Coupling>& couplings() { return couplings_; }
 
+  const OuterProducts& outer() const { return outer_; }
+  OuterProducts& outer() { return outer_; }
+
   const std::vector<Index>& offsets() const { return offsets_; }
   const std::vector<Index>& columns() const { return columns_; }
   const std::vector<double>& values() const { return values_; }
@@ -67,6 +72,7 @@ class BlockMatrix
   std::vector<Coupling> couplings_;
   std::vector<Index> row_coupling_;   ///< rows: the last coupling of the row, or -1
   std::vector<Index> next_coupling_;  ///< per coupling: the one before it in its row, or -1
+  OuterProducts outer_;
 };
 
 }  // namespace soft_tissue

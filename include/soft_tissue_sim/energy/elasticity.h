@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "soft_tissue_sim/energy/tet_term.h"
@@ -27,6 +28,13 @@ class Elasticity : public TetTerm
 
  private:
   friend class Viscosity;  // has the same tets, and makes the law stiffer
+
+  /** What of lambda a tet's own strain meets; the rest is up to its nodes, see
+   * NodalPressureTetElasticity. */
+  double ownLambda(double lambda) const
+  {
+    return kernels().dilatation == nullptr ? lambda : std::min(lambda, 0.0);
+  }
 
   void state(const Points& x, double* von_mises);
 

@@ -42,6 +42,19 @@ struct TetGroups
   const double* places;
 };
 
+/** Loops for a law's dilatation, which nodes take the mean of: see NodalPressureTetElasticity. */
+struct DilatationKernels
+{
+  /** dilatations[group][8]. */
+  void (*dilatation)(const TetGroups&, Index begin, Index end, const double* x,
+                     double* dilatations);
+  /** gradients[group][12][8], m^2: volume times the dilatation's derivative by 3 node + axis. */
+  void (*gradient)(const TetGroups&, Index begin, Index end, const double* x, double* gradients);
+  /** What lambda weighs of packs of eight dilatations, and its first and second derivatives. */
+  void (*energy)(Index begin, Index end, const double* dilatations, double* values, double* slopes,
+                 double* curvatures);
+};
+
 /** Element loops of one material and one kind of tet for one instruction set; x is flat, 3 per
  * node, m. */
 struct TetKernels
@@ -81,10 +94,16 @@ struct TetKernels
   void (*remember)(const TetGroups&, Index begin, Index end, const double* x, double* six);
   /** The loops for what such tets remember; null in those themselves. */
   const TetKernels* memory;
+  /** Where constants end with a pressure that others give: what they have to know; else null. */
+  const DilatationKernels* dilatation;
 };
 
 /** The loops for linear tets of a material on this machine. */
 const TetKernels& tetKernels(MaterialModel model, InstructionSet set);
+
+/** The same with one more constant: a pressure by which stress grows along the dilatation; energies
+ * leave it out. */
+const TetKernels& pressedTetKernels(MaterialModel model, InstructionSet set);
 
 /** The loops for quadratic tets; their nodes as in QuadraticTet. */
 const TetKernels& quadraticTetKernels(MaterialModel model, InstructionSet set);

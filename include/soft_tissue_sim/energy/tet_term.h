@@ -43,17 +43,30 @@ class TetTerm : public EnergyTerm
   std::vector<double>& constants() { return constants_; }
   const std::vector<double>& volumes() const { return volumes_; }
   void setVolumes(const std::vector<double>& volumes, double factor);
+  /** That factor; 1 before. */
+  double volumeFactor() const { return volume_factor_; }
 
   /** Where stress is told, M x kernels.parts x 4: barycentric coordinates by the stencils'
    * vertices. */
   void setPlaces(const std::vector<double>& places);
 
   /** six[group][point][6][8], see TetKernels::remember. */
-  void remember(const Points& x, std::vector<double>& six) const;
+  void remember(const Points& x, std::vector<double>& six);
+
+  /** Called before kernels see x, to give them constants that depend on it.
+   * @return energy that is of no single tet, J */
+  virtual double prepare(const Points&) { return 0.0; }
+
+  /** The node of a lane's corner, as the kernels have it. */
+  Index nodeOf(Index lane, int corner) const
+  {
+    return nodes_[kTetLanes * (kernels_->nodes * (lane / kTetLanes) + corner) + lane % kTetLanes];
+  }
 
   static constexpr Index kGroupGrain = 32;  ///< groups of eight tets per parallel piece
 
  private:
+  void addForces(const Points& x, Points& gradient);
   void addTet(const TetMesh& rest, Index tet, const Index* vertices, std::size_t lane);
   double sumOfEnergies(Index begin, Index end) const;
   void findPositions(const BlockMatrix& hessian);
@@ -71,6 +84,7 @@ class TetTerm : public EnergyTerm
   std::vector<double> volumes_;
   std::vector<double> constants_;
   std::vector<double> places_;
+  double volume_factor_ = 1.0;
   TetGroups groups_;
   std::vector<Index> positions_;  ///< blocks of the matrix last seen, see TetKernels::stiffness
   std::size_t matrix_blocks_ = 0;

@@ -78,8 +78,10 @@ struct FieldConfig
 
 enum class ElementKind
 {
-  tet4,   ///< linear tets
-  tet10,  ///< quadratic tets, with a node in the middle of each edge of the mesh
+  tet4,       ///< linear tets
+  tet4_anp,   ///< linear tets whose pressure is the mean of their nodes'
+  tet10,      ///< quadratic tets, with a node in the middle of each edge of the mesh
+  automatic,  ///< tet10 for coarse meshes, else tet4_anp or tet4: see elementFor()
 };
 
 /** What tissues and membranes have in common. */

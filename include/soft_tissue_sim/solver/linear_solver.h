@@ -8,7 +8,7 @@ namespace soft_tissue
 {
 enum class LinearSolverKind
 {
-  automatic,  ///< pcg: nothing was found yet that cholesky is quicker at
+  automatic,  ///< pcg, until it proves to take more work than cholesky
   pcg,        ///< conjugate gradients, preconditioned in two levels
   cholesky,   ///< sparse LDL^T, its symbolic part kept from step to step
 };
@@ -40,9 +40,21 @@ class LinearSolver
    * @param d                out, N x 3; of an indefinite A what was found until then, perhaps zero
    */
   virtual LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) = 0;
+
+  /** Forgets all that matrices before have taught it: what comes has the bits it has at first. */
+  virtual void forget() = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();
 std::unique_ptr<LinearSolver> makeCholesky();
+
+/**
+ * Conjugate gradients, until a solve takes more of them than factoring the matrix would: then
+ * factors, for all matrices after it but those with couplings. Work is counted, not timed.
+ */
+std::unique_ptr<LinearSolver> makeAutomatic();
+
+/** That of the kind. */
+std::unique_ptr<LinearSolver> makeLinearSolver(LinearSolverKind kind);
 
 }  // namespace soft_tissue

@@ -81,6 +81,13 @@ class NewtonSolver
 
   bool isFixed(Index node) const { return is_fixed_[node]; }
 
+  /** Makes minimisations from here on independent of those before. */
+  void forget()
+  {
+    forgetMatrix();
+    linear_->forget();
+  }
+
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
 

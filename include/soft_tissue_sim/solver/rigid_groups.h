@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "soft_tissue_sim/energy/block_matrix.h"
@@ -38,6 +39,7 @@ class RigidGroups
  private:
   void makeGroups(const BlockMatrix& a, const Points& x);
   void placeArms(const Points& x);
+  void addOuter(const OuterProducts& outer, Eigen::MatrixXd& coarse) const;
 
   bool usable_ = false;  ///< the coarse matrix was positive definite, or there are no groups
   std::vector<Index> offsets_ = {0};

@@ -62,6 +62,27 @@ TEST(BlockMatrix, KeepsBlocksOutsideItsPatternAsCouplings)
   EXPECT_EQ(a.couplings().at(0).block, b);
 }
 
+TEST(BlockMatrix, KeepsOuterProductsUntilSetToZero)
+{
+  BlockMatrix a(pattern());
+  Adjacency nodes;
+  nodes.offsets = {0, 2, 3};
+  nodes.items = {0, 4, 3};
+  EXPECT_EQ(a.outer().append(nodes), 0);
+  EXPECT_EQ(a.outer().append(nodes), 2);
+  EXPECT_EQ(a.outer().size(), 4);
+  EXPECT_EQ(a.outer().offsets(), (std::vector<Index>{0, 2, 3, 5, 6}));
+  EXPECT_EQ(a.outer().nodes(), (std::vector<Index>{0, 4, 3, 0, 4, 3}));
+  a.outer().vector(3)[1] = 5.0;
+  a.outer().weights()[2] = 2.0;
+  a.setZero();
+  EXPECT_TRUE(a.outer().empty());
+  a.outer().append(nodes);
+  a.outer().append(nodes);
+  EXPECT_EQ(a.outer().vector(3)[1], 0.0);
+  EXPECT_EQ(a.outer().weights()[2], 0.0);
+}
+
 TEST(BlockMatrix, RefusesABlockBelowTheDiagonal)
 {
   BlockMatrix a(pattern());

@@ -74,7 +74,7 @@ std::vector<BadScene> badNames()
       {"response: segment", "response: [segment]",
        "contacts[0].response = [segment], must be one of point, segment, auto"},
       {"    field: {method: cffm}", "    element: tet20",
-       "tissues[0].element = tet20, must be one of tet4, tet10"},
+       "tissues[0].element = tet20, must be one of tet4, tet4_anp, tet10, auto"},
       {"{method: cffm}", "{method: magic}",
        "tissues[0].field.method = magic, must be one of exact_marching, cffm, cpfm, "
        "grid"},

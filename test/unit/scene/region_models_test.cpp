@@ -52,7 +52,8 @@ class RegionModels : public ::testing::TestWithParam<ElementKind>
 };
 
 INSTANTIATE_TEST_SUITE_P(Elements, RegionModels,
-                         ::testing::Values(ElementKind::tet4, ElementKind::tet10));
+                         ::testing::Values(ElementKind::tet4, ElementKind::tet4_anp,
+                                           ElementKind::tet10));
 
 // Without lateral contraction the bar is two springs in a row, of the same nominal stress.
 TEST_P(RegionModels, PullEachOtherWithTheSameStress)

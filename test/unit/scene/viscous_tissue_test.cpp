@@ -27,7 +27,8 @@ class ViscousTissue : public ::testing::TestWithParam<ElementKind>
 };
 
 INSTANTIATE_TEST_SUITE_P(Elements, ViscousTissue,
-                         ::testing::Values(ElementKind::tet4, ElementKind::tet10));
+                         ::testing::Values(ElementKind::tet4, ElementKind::tet4_anp,
+                                           ElementKind::tet10));
 
 /** A load that comes at once and stays: u = u_end (1 - g / (1 + g) exp(-t / ((1 + g) T))). */
 TEST_P(ViscousTissue, CreepsUnderAConstantLoad)

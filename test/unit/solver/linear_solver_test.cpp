@@ -31,7 +31,8 @@ class EveryLinearSolver : public ::testing::TestWithParam<SolverCase>
 
 INSTANTIATE_TEST_SUITE_P(All, EveryLinearSolver,
                          ::testing::Values(SolverCase{"pcg", makePcg},
-                                           SolverCase{"cholesky", makeCholesky}),
+                                           SolverCase{"cholesky", makeCholesky},
+                                           SolverCase{"automatic", makeAutomatic}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 /** Where the nodes of a matrix may stand, m. */
@@ -127,6 +128,43 @@ TEST_P(EveryLinearSolver, CountsCouplingsOutsideThePatternWhichComeAndGo)
       EXPECT_LT(relativeResidual(a, b, d), 1.01 * tolerance) << touching;
     }
   }
+}
+
+TEST_P(EveryLinearSolver, CountsOuterProductsWhichComeAndGo)
+{
+  const Index rows = 60;
+  for (const int count : {0, 3, 20, 20, 7, 0})
+  {
+    for (const double weight : {1.0, 1e4})
+    {
+      BlockMatrix a = randomPositiveMatrix(rows, 100, 61);
+      addRandomOuterProducts(count, 9, weight, 62 + count, a);
+      addRandomOuterProducts(count / 2, 5, weight, 63, a);  // of another body
+      const Points b = randomPoints(rows, 64);
+      for (const double tolerance : {1e-2, 1e-10})  // single and double precision
+      {
+        Points d;
+        EXPECT_FALSE(solveWith(*solver_, a, b, placesOf(a), tolerance, d).indefinite);
+        EXPECT_LT(relativeResidual(a, b, d), 1.05 * tolerance) << count << " " << weight;
+      }
+    }
+  }
+}
+
+TEST_P(EveryLinearSolver, TellsOuterProductsThatMakeAMatrixIndefinite)
+{
+  BlockMatrix a = randomPositiveMatrix(30, 80, 65);
+  addRandomOuterProducts(8, 6, 1.0, 66, a);
+  const Points b = randomPoints(30, 67);
+  Points d;
+  a.outer().weights()[2] = 0.0;  // allowed, and nothing
+  a.outer().weights()[3] *= -1e-3;
+  ASSERT_GT(smallestEigenvalue(dense(a)), 0.0);
+  EXPECT_FALSE(solveWith(*solver_, a, b, placesOf(a), 1e-10, d).indefinite);
+  EXPECT_LT(relativeResidual(a, b, d), 1.01e-10);
+  a.outer().weights()[3] = -100.0;
+  ASSERT_LT(smallestEigenvalue(dense(a)), 0.0);
+  EXPECT_TRUE(solveWith(*solver_, a, b, placesOf(a), 1e-10, d).indefinite);
 }
 
 TEST_P(EveryLinearSolver, SeesAnotherPatternOfAsManyBlocks)
@@ -233,6 +271,7 @@ TEST_P(EveryLinearSolver, HasTheSameBitsForAnyThreadsAndInstructionSet)
   const auto rows = static_cast<Index>(bar.nodes.size());
   BlockMatrix a(nodeNeighbours(rows, bar.tets));
   addRandomElements(bar.tets, 81, a);
+  addRandomOuterProducts(40, 12, 1.0, 83, a);
   const Points b = randomPoints(rows, 82);
   std::vector<Points> solutions;
   for (int set = 0; set <= static_cast<int>(best); ++set)
