@@ -44,6 +44,19 @@ CellBox bricksOf(const CellBox& box)
   return {brickOf(box.low), brickOf(box.high - Cell::Ones()) + Cell::Ones()};
 }
 
+/** A number of its own for each cell, as random as it gets: those of a set are joined by xor.
+ * Source: [Steele2014] figure 16, its mixing function */
+std::uint64_t codeOf(std::uint64_t brick_key, const Cell& cell)
+{
+  const auto mixed = [](std::uint64_t code) {
+    code = (code ^ code >> 30U) * 0xbf58476d1ce4e5b9ULL;
+    code = (code ^ code >> 27U) * 0x94d049bb133111ebULL;
+    return code ^ code >> 31U;
+  };
+  const int at = (cell.x() & 7) + 8 * (cell.y() & 7) + 64 * (cell.z() & 7);
+  return mixed(mixed(brick_key + 0x9e3779b97f4a7c15ULL) + static_cast<std::uint64_t>(at + 1));
+}
+
 unsigned bitOf(const Cell& cell)
 {
   return static_cast<unsigned>((cell.x() & 7) + 8 * (cell.y() & 7));
@@ -76,11 +89,16 @@ void VoxelSet::fill(const CellBox& box, bool occupied)
     const Cell first = brick * kSide;
     const CellBox part = {first.cwiseMax(box.low),
                           (first + Cell::Constant(kSide)).cwiseMin(box.high)};
-    Brick& bits = bricks_[keyOf(brick)];
+    const std::uint64_t key = keyOf(brick);
+    Brick& bits = bricks_[key];
     forEachCell(part, [&](const Cell& cell) {
       const std::uint64_t mask = std::uint64_t{1} << bitOf(cell);
       std::uint64_t& layer = bits[cell.z() & 7];
-      layer = bit ? layer | mask : layer & ~mask;
+      if (((layer & mask) != 0) != bit)
+      {
+        layer ^= mask;
+        contents_ ^= codeOf(key, cell);
+      }
     });
   });
 }
@@ -119,6 +137,37 @@ void VoxelSet::read(const CellBox& box, std::vector<std::uint8_t>& occupied) con
           bit != others_occupied_;
     });
   });
+}
+
+CellBox VoxelSet::difference(const VoxelSet& other, const CellBox& box) const
+{
+  static constexpr Brick kAlike = {};
+  const std::uint64_t flipped = others_occupied_ == other.others_occupied_ ? 0 : ~std::uint64_t{0};
+  CellBox found;
+  forEachCell(bricksOf(box), [&](const Cell& brick) {
+    const Brick* mine = brickAt(brick);
+    const Brick* theirs = other.brickAt(brick);
+    if (mine == nullptr && theirs == nullptr && flipped == 0)
+    {
+      return;
+    }
+    const Cell first = brick * kSide;
+    for (int z = 0; z < kSide; ++z)
+    {
+      const std::uint64_t differ = (mine == nullptr ? kAlike : *mine)[z] ^
+                                   (theirs == nullptr ? kAlike : *theirs)[z] ^ flipped;
+      for (int bit = 0; differ != 0 && bit < 64; ++bit)
+      {
+        const Cell cell = first + Cell(bit & 7, bit >> 3, z);
+        const CellBox one = {cell, cell + Cell::Ones()};
+        if ((differ >> bit & 1U) != 0 && box.contains(one))
+        {
+          found.extend(one);
+        }
+      }
+    }
+  });
+  return found;
 }
 
 bool VoxelSet::mixed(const CellBox& box) const

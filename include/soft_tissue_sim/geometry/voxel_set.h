@@ -56,6 +56,16 @@ class VoxelSet
   /** Occupancy of all cells of a box, x running fastest, as 0 or 1. */
   void read(const CellBox& box, std::vector<std::uint8_t>& occupied) const;
 
+  /** What cells are that nothing was said of. */
+  bool othersOccupied() const { return others_occupied_; }
+
+  /** Hash of which cells differ from those that nothing was said of: it does not depend on the way
+   * they came to. */
+  std::uint64_t contents() const { return contents_; }
+
+  /** Box around the cells of a box that are not as in another set. */
+  CellBox difference(const VoxelSet& other, const CellBox& box) const;
+
   /** Whether a box may have both kinds of cells. */
   bool mixed(const CellBox& box) const;
 
@@ -76,6 +86,7 @@ class VoxelSet
   double cell_size_;
   bool others_occupied_;
   CellBox bounds_;
+  std::uint64_t contents_ = 0;
   std::unordered_map<std::uint64_t, Brick> bricks_;
 };
 
