@@ -123,6 +123,41 @@ double ContactTerm::deepest(const Points& x)
   return deepest;
 }
 
+double ContactTerm::deepestExcess(const Points& x)
+{
+  double deepest = 0.0;
+  for (const ContactSample& sample : samples(x))
+  {
+    deepest = std::max(deepest, sample.excess());
+  }
+  return deepest;
+}
+
+void ContactTerm::addTo(StateHash& hash) const
+{
+  hash.addValue(stiffening_);
+  friction_->addTo(hash);
+}
+
+void ContactTerm::exchange(StateArchive& archive, const Points& x)
+{
+  double factor = stiffening_;
+  archive.value(factor);
+  friction_->exchange(archive);
+  bool sampled = haveSamplesAt(x);
+  archive.value(sampled);
+  if (archive.reading())
+  {
+    forgetSamples();
+    setStiffening(factor);
+  }
+  exchangePlaces(archive);
+  if (archive.reading() && sampled)
+  {
+    samples(x);
+  }
+}
+
 const std::vector<FrictionForce>& ContactTerm::frictionForces(const Points& x)
 {
   return friction_->forcesAt(x);

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "body_motion.h"
+#include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "tissue_in_tool.h"
 #include "tool_grip.h"
@@ -158,9 +160,7 @@ void ObstacleContact::afterChange(const Points& x, const Pose& X_WO)
 {
   Parts& p = *parts_;
   takeBodies(x);
-  forgetSamples();
-  p.X_OW = X_WO.inverse();
-  p.body = bodyOf(p.obstacle, X_WO);
+  setPose(X_WO);
   p.cover(transformed(p.X_OW, boundsOf(body(0), p.tissue.surface->nodes)));
   p.tissue_in_obstacle.allowMore(body(0), p.changing, p.excess);
 }
@@ -190,7 +190,42 @@ const std::vector<double>& ObstacleContact::allowances() const
 void ObstacleContact::setAllowances(const std::vector<double>& depths_m)
 {
   forgetSamples();
+  if (!depths_m.empty() && depths_m.size() != parts_->tissue_in_obstacle.elementCount())
+  {
+    throw Error("obstacle: " + std::to_string(depths_m.size()) + " allowances for " +
+                std::to_string(parts_->tissue_in_obstacle.elementCount()) + " elements");
+  }
   parts_->tissue_in_obstacle.setAllowances(depths_m);
+}
+
+void ObstacleContact::addTo(StateHash& hash) const
+{
+  ContactTerm::addTo(hash);
+  hash.add(allowances().data(), allowances().size() * sizeof(double));
+}
+
+void ObstacleContact::exchangePlaces(StateArchive& archive)
+{
+  Parts& p = *parts_;
+  std::vector<double> allowed = allowances();
+  archive.list(allowed);
+  archive.list(p.start);
+  archive.value(p.margin);
+  if (archive.reading())
+  {
+    setAllowances(allowed);
+    if (!p.start.empty())
+    {
+      select();
+    }
+  }
+}
+
+void ObstacleContact::setPose(const Pose& X_WO)
+{
+  parts_->X_OW = X_WO.inverse();
+  parts_->body = bodyOf(parts_->obstacle, X_WO);
+  forgetSamples();
 }
 
 bool ObstacleContact::active() const

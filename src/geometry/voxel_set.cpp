@@ -1,5 +1,6 @@
 #include "soft_tissue_sim/geometry/voxel_set.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -20,6 +21,14 @@ std::uint64_t keyOf(const Cell& brick)
 {
   const auto part = [&](int axis) { return static_cast<std::uint64_t>(brick[axis] + kLargest); };
   return part(0) | part(1) << 21U | part(2) << 42U;
+}
+
+Cell brickWith(std::uint64_t key)
+{
+  const auto part = [&](unsigned shift) {
+    return static_cast<int>(key >> shift & (2U * kLargest - 1U)) - kLargest;
+  };
+  return {part(0), part(21), part(42)};
 }
 
 template <typename Visit>
@@ -168,6 +177,65 @@ CellBox VoxelSet::difference(const VoxelSet& other, const CellBox& box) const
     }
   });
   return found;
+}
+
+/** z is in the highest bits. */
+std::vector<std::uint64_t> VoxelSet::sortedKeys() const
+{
+  std::vector<std::uint64_t> keys;
+  keys.reserve(bricks_.size());
+  for (const auto& [key, bits] : bricks_)
+  {
+    keys.push_back(key);
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+void VoxelSet::exchange(StateArchive& archive)
+{
+  double cell_size = cell_size_;
+  archive.value(cell_size);
+  if (cell_size != cell_size_)
+  {
+    throw Error("voxels: cells of " + std::to_string(cell_size) + " m, must be of " +
+                std::to_string(cell_size_) + " m");
+  }
+  archive.value(others_occupied_);
+  for (Cell* corner : {&bounds_.low, &bounds_.high})
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      archive.value((*corner)[axis]);
+    }
+  }
+  archive.value(contents_);
+  std::vector<std::uint64_t> keys = sortedKeys();
+  archive.list(keys);
+  if (archive.reading())
+  {
+    bricks_.clear();
+  }
+  for (const std::uint64_t key : keys)
+  {
+    archive.value(bricks_[key]);
+  }
+}
+
+void VoxelSet::forEachOther(const std::function<void(const Cell&)>& visit) const
+{
+  for (const std::uint64_t key : sortedKeys())
+  {
+    const Cell first = brickWith(key) * kSide;
+    const Brick& bits = bricks_.at(key);
+    for (int at = 0; at < kSide * kSide * kSide; ++at)
+    {
+      if ((bits[at >> 6] >> (at & 63) & 1U) != 0)
+      {
+        visit(first + Cell(at & 7, at >> 3 & 7, at >> 6));
+      }
+    }
+  }
 }
 
 bool VoxelSet::mixed(const CellBox& box) const

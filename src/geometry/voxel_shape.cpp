@@ -139,6 +139,14 @@ void VoxelShape::finishPatches()
   }
 }
 
+void VoxelShape::remake(VoxelSet cells, const CellBox& patches)
+{
+  cells_ = std::move(cells);
+  patches_.clear();
+  covered_ = CellBox();
+  build(patches);
+}
+
 Box3 VoxelShape::covered() const
 {
   Box3 box;

@@ -31,7 +31,8 @@ PhysicsLoop::PhysicsLoop(soft_tissue::Scene scene, const Config& config,
       config_(config),
       on_failure_(std::move(on_failure)),
       commands_(scene_.tools().size()),
-      schedule_(makeSchedule(scene_.config().time_step_s, config))
+      schedule_(makeSchedule(scene_.config().time_step_s, config)),
+      maps_(scene_.obstacles().size())
 {
   counters_.paused = config.paused;
 }
@@ -234,6 +235,39 @@ void PhysicsLoop::resetWorld()
     ++resets_;
     publishFrame();
   });
+}
+
+void PhysicsLoop::setObstacle(std::size_t obstacle, soft_tissue::VoxelSet cells,
+                              const soft_tissue::Pose& X_WO)
+{
+  std::vector<soft_tissue::VoxelSet> spent;  // let go of outside the lock
+  auto map = std::make_shared<Map>(Map{std::move(cells), X_WO});
+  {
+    const std::lock_guard<std::mutex> lock(map_mutex_);
+    maps_[obstacle].swap(map);
+    spent_.swap(spent);
+  }
+  if (map == nullptr)
+  {
+    const std::lock_guard<std::mutex> lock(task_mutex_);
+    if (accepting_)
+    {
+      tasks_.emplace_back([this, obstacle] { takeMap(obstacle); });
+    }
+    task_added_.notify_all();
+  }
+}
+
+void PhysicsLoop::takeMap(std::size_t obstacle)
+{
+  std::shared_ptr<Map> map;
+  {
+    const std::lock_guard<std::mutex> lock(map_mutex_);
+    map.swap(maps_[obstacle]);
+  }
+  soft_tissue::VoxelSet before = scene_.setObstacle(obstacle, std::move(map->cells), map->X_WO);
+  const std::lock_guard<std::mutex> lock(map_mutex_);
+  spent_.push_back(std::move(before));
 }
 
 void PhysicsLoop::execute(std::function<void()> task)

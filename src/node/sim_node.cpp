@@ -24,6 +24,7 @@ SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tis
       publisher_(loop_.frames())
 {
   addInputs(config_.tools);
+  addMaps(config_.obstacles);
   addOutputs();
   diagnostics_timer_ = node_.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
@@ -36,6 +37,7 @@ SimNode::~SimNode()
 {
   input_timer_.stop();
   diagnostics_timer_.stop();
+  map_inputs_.clear();
   loop_.stop();
   services_.reset();
   publisher_.stop();
@@ -81,6 +83,25 @@ void SimNode::addInputs(const std::vector<soft_tissue::ToolConfig>& tools)
                                        [this](const ros::WallTimerEvent&) { pollInputs(); });
 }
 
+void SimNode::addMaps(const std::vector<soft_tissue::ObstacleConfig>& obstacles)
+{
+  for (std::size_t k = 0; k < obstacles.size(); ++k)
+  {
+    if (obstacles[k].octomap.topic.empty())
+    {
+      continue;
+    }
+    if (!listener_)
+    {
+      listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
+    }
+    map_inputs_.emplace_back(node_, obstacles[k], buffer_, params_.world_frame, kTfPatience,
+                             [this, k](soft_tissue::VoxelSet cells, const soft_tissue::Pose& X_WO) {
+                               loop_.setObstacle(k, std::move(cells), X_WO);
+                             });
+  }
+}
+
 void SimNode::addOutputs()
 {
   const std::string& world = params_.world_frame;
@@ -91,7 +112,14 @@ void SimNode::addOutputs()
                                                 params_.publish_clock, world, on_subscriber);
   distances_ = std::make_unique<DistanceService>(node_, info_, world);
   publisher_.addStream(0.0, [this](const Frame& frame) { distances_->note(frame); });
-  diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, gates_);
+  if (config_.outputs.octomap)
+  {
+    octomap_topics_ = std::make_unique<OctomapTopics>(node_, config_, info_, world, on_subscriber);
+    publisher_.addStream(config_.outputs.octomap->rate_hz,
+                         [this](const Frame& frame) { octomap_topics_->publish(frame); });
+  }
+  diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, octomap_topics_.get(), gates_,
+                                               map_inputs_);
   publisher_.addStream(0.0, [this](const Frame& frame) { diagnostics_->note(frame); });
   if (params_.publish_clock)
   {

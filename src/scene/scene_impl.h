@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/base/pose_series.h"
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/contact/obstacle_contact.h"
 #include "soft_tissue_sim/contact/tissue_contact.h"
@@ -23,7 +24,8 @@ constexpr double kFailedResidual = 0.05;
 
 /** The scene itself. Building is in scene_build.cpp, its contacts in
  * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
- * scene_step.cpp and scene_inertia.cpp, resting in scene_sleep.cpp, reading out in scene.cpp. */
+ * scene_step.cpp and scene_inertia.cpp, resting in scene_sleep.cpp, reading out in scene.cpp,
+ * saving and loading in scene_state.cpp. */
 class Scene::Impl
 {
  public:
@@ -31,8 +33,13 @@ class Scene::Impl
 
   const StepReport& step();
   void resetWorld();
+  void restart();
   void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
   void refuseDeepStart();
+  VoxelSet setObstacle(std::size_t obstacle, VoxelSet cells, const Pose& X_WO);
+  std::uint64_t identity() const;
+  std::string stateBytes();
+  void exchange(StateArchive& archive);
   std::uint64_t stateHash() const;
   void fillSnapshot(Snapshot& snapshot);
 
@@ -54,6 +61,16 @@ class Scene::Impl
     ToolState state;
   };
   std::vector<Tool, Eigen::aligned_allocator<Tool>> tools_;
+
+  struct Obstacle
+  {
+    std::shared_ptr<VoxelShape> shape;
+    Pose X_WO = Pose::Identity();
+    Box3 shown;            ///< what of it ObstacleInfo has, its own frame
+    bool changes = false;  ///< its cells come from outside
+    ObstacleState state;
+  };
+  std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
 
  private:
   /** What a tissue or membrane adds to the scene, and where its nodes stand among all. */
@@ -78,13 +95,6 @@ class Scene::Impl
     PoseSeries track;
     Pose X_FW = Pose::Identity();  ///< the world in the first key frame's frame
   };
-  struct Obstacle
-  {
-    std::shared_ptr<VoxelShape> shape;
-    Pose X_WO = Pose::Identity();
-    Box3 shown;  ///< what of it ObstacleInfo has, its own frame
-    ObstacleState state;
-  };
   struct Contact
   {
     std::size_t tissue = 0;  ///< or membrane
@@ -99,7 +109,7 @@ class Scene::Impl
     bool refresh = true;
     std::optional<double> max_penetration_m;
     double start_depth_m = 0.0;  ///< two tissues start in each other by, if that is deep
-    double allowance_m = 0.0;    ///< what of it presses nothing yet
+    double allowance_m = 0.0;    ///< depth that presses nothing yet; of an obstacle the largest
     Points force, last_force;  ///< minus those on nodes of both, at the end of this part of a step
                                ///< and of the last; for bdf2 alone
   };
@@ -127,6 +137,7 @@ class Scene::Impl
   void addToolContact(const ContactConfig& config, Contact& contact);
   void addTissueContact(const ContactConfig& config, Contact& contact);
   void addObstacleContact(const ContactConfig& config, Contact& contact);
+  void checkObstacle(std::size_t index, const VoxelSet& cells, const Pose& X_WO) const;
   void showObstacles();
   void refuseDeepStart(const Contact& contact);
   void findDeepStarts();
@@ -180,6 +191,7 @@ class Scene::Impl
   bool isDriven(std::size_t tissue) const;
   bool isQuiet(std::size_t tissue) const;
   void wakeUp();
+  void wake(std::size_t island);
   void fallAsleep();
   void setSleepers();
   bool stiffenWhereTooDeep();
@@ -199,12 +211,18 @@ class Scene::Impl
   void forgetWay();
   void finishStep();
   void collectContacts();
+  void exchangeStepper(StateArchive& archive);
+  void exchangeTissues(StateArchive& archive);
+  void exchangeTools(StateArchive& archive);
+  void exchangeObstacles(StateArchive& archive);
+  void exchangeContacts(StateArchive& archive);
+  void exchangeReport(StateArchive& archive);
+  std::vector<EnergyTerm*> allTerms() const;
 
   std::vector<Tissue> tissues_;
   std::vector<MovedNodes, Eigen::aligned_allocator<MovedNodes>> moved_;
   std::vector<Contact> contacts_;
   std::vector<TissuePairState> pairs_;
-  std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
   Points x_, x_rest_, v_;
   Points acceleration_;  ///< of the last step, to start the next one from; moves nothing by itself
   std::vector<std::size_t> group_;   ///< per tissue: the first of those it touches, itself included

@@ -16,6 +16,9 @@ constexpr double kDeepStart = 0.5;
  * many of them a second. */
 constexpr double kDeepPair = 0.02, kEasing = 1.0;
 
+/** Those that an obstacle took in are pushed out at so many of them, half cells, a second. */
+constexpr double kObstacleEasing = 5.0;
+
 /** The most parts that contact cuts edges of a membrane into. */
 constexpr double kMostCuts = 64.0;
 
@@ -244,15 +247,23 @@ void Scene::Impl::allow(double depth_m, Contact& contact)
   contact.with_tissue->setAllowance(depth_m);
 }
 
-/** Pushes tissues that started in each other a little farther apart. */
+/** Pushes tissues that started in each other a little farther apart, and out of obstacles. */
 void Scene::Impl::easeDeepStarts()
 {
   for (Contact& contact : contacts_)
   {
-    if (contact.allowance_m > 0.0)
+    if (!(contact.allowance_m > 0.0))
     {
-      const double by = kEasing * contact.size_m * config_.time_step_s;
-      allow(std::max(0.0, contact.allowance_m - by), contact);
+      continue;
+    }
+    const double by = contact.size_m * config_.time_step_s;
+    if (contact.with_obstacle != nullptr)
+    {
+      contact.allowance_m = contact.with_obstacle->easeAllowances(kObstacleEasing * by);
+    }
+    else
+    {
+      allow(std::max(0.0, contact.allowance_m - kEasing * by), contact);
     }
   }
 }

@@ -115,6 +115,15 @@ void TissueElasticity::restore()
   forViscous([](Part& part) { part.viscosity->setMemory(part.saved); });
 }
 
+void TissueElasticity::exchange(StateArchive& archive)
+{
+  forViscous([&](Part& part) {
+    std::vector<double> memory = part.viscosity->memory();
+    archive.values(memory);
+    part.viscosity->setMemory(memory);
+  });
+}
+
 void TissueElasticity::addTo(StateHash& hash) const
 {
   for (const Part& part : parts_)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/base/hash.h"
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/energy/viscosity.h"
 
 namespace soft_tissue
@@ -28,6 +29,8 @@ class TissueElasticity
   void save();
   void restore();
   void addTo(StateHash& hash) const;
+  /** Writes, or reads, what it remembers. */
+  void exchange(StateArchive& archive);
 
   void addTerms(std::vector<EnergyTerm*>& terms) const;
 

@@ -39,6 +39,9 @@ class Cholesky : public LinearSolver
     return {1, 0.0, false, false};
   }
 
+  // Which order the unknowns are taken in depends on the matrix alone.
+  void exchange(StateArchive& archive) override { iterative_->exchange(archive); }
+
  private:
   bool hasPatternOf(const BlockMatrix& a) const
   {

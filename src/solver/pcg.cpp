@@ -231,6 +231,16 @@ class Pcg : public LinearSolver
                : double_.solve(*matrix_, b, tolerance, most_iterations, d);
   }
 
+  void exchange(StateArchive& archive) override
+  {
+    groups_.exchange(archive);
+    if (archive.reading())
+    {
+      single_.setGroups(groups_);
+      double_.setGroups(groups_);
+    }
+  }
+
  private:
   const BlockMatrix* matrix_ = nullptr;
   RigidGroups groups_;

@@ -31,6 +31,7 @@ class ObstacleContact : public ContactTerm
   void beginStep(const Points& x);
 
   bool active() const override;
+  void addTo(StateHash& hash) const override;
 
   /**
    * The obstacle is about to change, in cells or pose: what the tissue presses with is noted.
@@ -45,6 +46,9 @@ class ObstacleContact : public ContactTerm
    */
   void afterChange(const Points& x, const Pose& X_WO);
 
+  /** Puts the obstacle elsewhere. */
+  void setPose(const Pose& X_WO);
+
   /** Allows all that is in the obstacle at x to be there, and nothing else. */
   void allowAll(const Points& x);
   /** Takes so much of what is allowed, m: it pushes the tissue out as slowly as one likes.
@@ -58,6 +62,7 @@ class ObstacleContact : public ContactTerm
   void collect(std::vector<ContactSample>& samples) override;
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
+  void exchangePlaces(StateArchive& archive) override;
   void forgetField() override {}
   void lagFriction(const Points& x);
   void lagPlaces(const Points& x);

@@ -54,9 +54,10 @@ class VoxelShape : public RigidShape
    */
   VoxelSet exchange(VoxelSet cells);
 
-  /** What is covered, in patches; and covers as much in a shape that has covered nothing. */
+  /** What is covered, in patches. */
   const CellBox& coveredPatches() const { return covered_; }
-  void coverPatches(const CellBox& patches) { build(patches); }
+  /** Takes other cells of the same size, and covers these patches and no others. */
+  void remake(VoxelSet cells, const CellBox& patches);
 
   /**
    * Exact wherever the nearest surface is covered. Where no surface is, infinite in the open, and

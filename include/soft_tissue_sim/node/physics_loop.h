@@ -72,6 +72,11 @@ class PhysicsLoop
   /** Tells where a tool shall be; `sent_s` is as in CommandStream::put(). From any thread. */
   void command(std::size_t tool, const soft_tissue::Pose& X_WT, std::optional<double> sent_s);
 
+  /** Gives an obstacle other cells, and a pose, before the next step; of several the newest counts.
+   * From any thread, which then lets go of cells there were. */
+  void setObstacle(std::size_t obstacle, soft_tissue::VoxelSet cells,
+                   const soft_tissue::Pose& X_WO);
+
   void setPaused(bool paused);
   /** Steps a paused loop; waits for the last one. @return simulated time, empty if it is not paused
    */
@@ -87,6 +92,7 @@ class PhysicsLoop
   void runTasks();
   void waitForTask(double seconds);
   void execute(std::function<void()> task);
+  void takeMap(std::size_t obstacle);
   bool stepIfDue();
   bool clockHasStarted();
   void aimTools(bool at_once);
@@ -106,6 +112,16 @@ class PhysicsLoop
   RealTimeMeter meter_;
   std::uint64_t resets_ = 0;
   ros::Time stamp_;
+
+  /** Cells on their way to the scene, and those that come back. */
+  struct Map
+  {
+    soft_tissue::VoxelSet cells;
+    soft_tissue::Pose X_WO;
+  };
+  std::mutex map_mutex_;
+  std::vector<std::shared_ptr<Map>> maps_;  ///< per obstacle, null: none
+  std::vector<soft_tissue::VoxelSet> spent_;
 
   LatestExchange<Frame> frames_;
   LoopCounters counters_;

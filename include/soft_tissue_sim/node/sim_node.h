@@ -11,7 +11,9 @@
 #include "soft_tissue_sim/node/diagnostics.h"
 #include "soft_tissue_sim/node/distance_service.h"
 #include "soft_tissue_sim/node/frame_publisher.h"
+#include "soft_tissue_sim/node/map_input.h"
 #include "soft_tissue_sim/node/node_params.h"
+#include "soft_tissue_sim/node/octomap_topics.h"
 #include "soft_tissue_sim/node/sim_services.h"
 #include "soft_tissue_sim/node/tissue_topics.h"
 #include "soft_tissue_sim/node/tool_inputs.h"
@@ -35,6 +37,7 @@ class SimNode
 
  private:
   void addInputs(const std::vector<soft_tissue::ToolConfig>& tools);
+  void addMaps(const std::vector<soft_tissue::ObstacleConfig>& obstacles);
   void addOutputs();
   void pollInputs();
   void onFailure(const std::string& what);
@@ -52,10 +55,12 @@ class SimNode
   std::deque<TopicInput> topic_inputs_;
   std::deque<TfInput> tf_inputs_;
   ros::WallTimer input_timer_;
+  std::deque<MapInput> map_inputs_;
 
   TissueDepths depths_;  ///< used by the publishing thread only, once it runs
   FramePublisher publisher_;
   std::unique_ptr<SceneTopics> scene_topics_;
+  std::unique_ptr<OctomapTopics> octomap_topics_;
   std::deque<TissueTopics> tissue_topics_;
   std::deque<ToolTopics> tool_topics_;
   std::unique_ptr<Diagnostics> diagnostics_;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/energy/block_matrix.h"
 
 namespace soft_tissue
@@ -40,6 +41,10 @@ class LinearSolver
    * @param d                out, N x 3; of an indefinite A what was found until then, perhaps zero
    */
   virtual LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) = 0;
+
+  /** Writes, or reads, what of earlier matrices the next solves depend on; the matrix itself is
+   * set after that. */
+  virtual void exchange(StateArchive& archive) = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();

@@ -216,8 +216,8 @@ TEST(VoxelShape, AfterManyExchangesIsWhatItWouldHaveBeenMadeAs)
     const int x = int(random.uniform(-20.0, 17.0)), z = int(random.uniform(-20.0, 17.0));
     other.fill({Cell(x, 15 - round, z), Cell(x + 3, 16, z + 1)}, round % 2 == 0);
     changed.exchange(other);
-    VoxelShape made(other);
-    made.coverPatches(changed.coveredPatches());
+    VoxelShape made{VoxelSet(1.0)};
+    made.remake(other, changed.coveredPatches());
     for (int trial = 0; trial < 200; ++trial)
     {
       const Vec3 p = random.point(20.0);
