@@ -99,6 +99,16 @@ void ContactTerm::setStep(double step_s)
   friction_->setStep(step_s);
 }
 
+void ContactTerm::setBaseStiffness(double pa_per_m)
+{
+  if (pa_per_m != options_.stiffness_pa_per_m)
+  {
+    options_.stiffness_pa_per_m = pa_per_m;
+    forgetSamples();
+    setStiffening(stiffening_);
+  }
+}
+
 void ContactTerm::setStiffening(double factor)
 {
   have_samples_ = have_samples_ && factor == stiffening_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "soft_tissue_sim/base/error.h"
+
 namespace soft_tissue_sim
 {
 namespace
@@ -227,14 +229,73 @@ std::optional<double> PhysicsLoop::step(std::uint32_t steps)
 void PhysicsLoop::resetWorld()
 {
   execute([this] {
-    for (CommandStream& commands : commands_)
-    {
-      commands.clear();
-    }
+    forgetCommands();
     scene_.resetWorld();
     ++resets_;
     publishFrame();
   });
+}
+
+void PhysicsLoop::resetSimulation()
+{
+  execute([this] {
+    forgetCommands();
+    scene_.restart();
+    restartClocks();
+    ++resets_;
+    publishFrame();
+  });
+}
+
+PhysicsLoop::Moment PhysicsLoop::saveState(const std::string& file)
+{
+  Moment moment;
+  demand([&] {
+    scene_.saveState(file);
+    moment = now();
+  });
+  return moment;
+}
+
+PhysicsLoop::Moment PhysicsLoop::loadState(const std::string& file)
+{
+  Moment moment;
+  demand([&] {
+    scene_.loadState(file);
+    forgetCommands();
+    restartClocks();
+    ++resets_;
+    publishFrame();
+    moment = now();
+  });
+  return moment;
+}
+
+void PhysicsLoop::setMaterial(std::size_t tissue, const soft_tissue::MaterialChange& change)
+{
+  demand([&] { scene_.setMaterial(tissue, change); });
+}
+
+void PhysicsLoop::demand(std::function<void()> task)
+{
+  if (!execute(std::move(task)))
+  {
+    throw soft_tissue::Error("the simulation has ended");
+  }
+}
+
+void PhysicsLoop::forgetCommands()
+{
+  for (CommandStream& commands : commands_)
+  {
+    commands.clear();
+  }
+}
+
+PhysicsLoop::Moment PhysicsLoop::now()
+{
+  scene_.fillSnapshot(asked_);
+  return {asked_.report.step, asked_.report.time_s, asked_.state_hash};
 }
 
 void PhysicsLoop::setObstacle(std::size_t obstacle, soft_tissue::VoxelSet cells,
@@ -270,14 +331,15 @@ void PhysicsLoop::takeMap(std::size_t obstacle)
   spent_.push_back(std::move(before));
 }
 
-void PhysicsLoop::execute(std::function<void()> task)
+/** @return whether it was done: not if the loop has ended */
+bool PhysicsLoop::execute(std::function<void()> task)
 {
   std::future<void> done;
   {
     const std::lock_guard<std::mutex> lock(task_mutex_);
     if (!accepting_)
     {
-      return;
+      return false;
     }
     tasks_.emplace_back(std::move(task));
     done = tasks_.back().get_future();
@@ -286,10 +348,11 @@ void PhysicsLoop::execute(std::function<void()> task)
   try
   {
     done.get();
+    return true;
   }
   catch (const std::future_error&)
   {
-    // The loop ended before it came to the task.
+    return false;  // it ended before it came to the task
   }
 }
 

@@ -51,6 +51,8 @@ std::string runUsage()
          "  --state-rate HZ      most tissue states a simulated second in that bag; 0: every step\n"
          "  --csv FILE           one line a step\n"
          "  --json FILE          summary of the run\n"
+         "  --load-state FILE    go on from the state of a run of the same scene\n"
+         "  --save-state FILE    keep the state at the end\n"
          "  --frame-id FRAME     name of the world frame (world)\n"
          "  --threads N          threads a step may use; 0: one per processor\n"
          "  --quiet              print nothing but errors\n"
@@ -69,6 +71,8 @@ RunOptions parseRunOptions(const std::vector<std::string>& arguments)
        {"--bag-out", [&](const auto&, const auto& text) { options.bag_out = text; }},
        {"--csv", [&](const auto&, const auto& text) { options.csv = text; }},
        {"--json", [&](const auto&, const auto& text) { options.json = text; }},
+       {"--load-state", [&](const auto&, const auto& text) { options.load_state = text; }},
+       {"--save-state", [&](const auto&, const auto& text) { options.save_state = text; }},
        {"--frame-id", [&](const auto&, const auto& text) { options.world_frame = text; }},
        {"--state-rate",
         [&](const auto& name, const auto& text) {

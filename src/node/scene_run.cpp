@@ -59,7 +59,9 @@ double lastKeyframe(const SceneConfig& config)
   return last;
 }
 
-std::uint64_t stepCount(const RunOptions& options, const SceneConfig& config, const BagPoses& poses)
+/** @param done  steps taken before this run, which count unless a duration is given */
+std::uint64_t stepCount(const RunOptions& options, const SceneConfig& config, const BagPoses& poses,
+                        std::uint64_t done)
 {
   const double duration =
       options.duration_s.value_or(std::max(lastKeyframe(config), poses.length_s));
@@ -69,7 +71,9 @@ std::uint64_t stepCount(const RunOptions& options, const SceneConfig& config, co
                 ": has no key frames and there is no bag: how long is told by --duration");
   }
   constexpr double kRounding = 1.0e-6;
-  return static_cast<std::uint64_t>(std::ceil(duration / config.time_step_s - kRounding));
+  const auto steps =
+      static_cast<std::uint64_t>(std::ceil(duration / config.time_step_s - kRounding));
+  return options.duration_s ? steps : steps - std::min(steps, done);
 }
 
 /** A bar on standard error, if that is a terminal. */
@@ -183,9 +187,17 @@ void runScene(const RunOptions& options)
       std::fprintf(stderr, "warning: bag %s: %s\n", options.bag_in.c_str(), warning.c_str());
     }
   }
-  config.solver.budget_ms.reset();  // the same bits on a busy machine
-  const std::uint64_t steps = stepCount(options, config, poses);
+  config.solver.budget_ms.reset();       // the same bits on a busy machine
+  stepCount(options, config, poses, 0);  // says what is missing before anything is built
   soft_tissue::Scene scene = buildScene(config);
+  soft_tissue::Snapshot snapshot;
+  if (!options.load_state.empty())
+  {
+    scene.loadState(options.load_state);
+    scene.fillSnapshot(snapshot);
+  }
+  const std::uint64_t done = snapshot.report.step;
+  const std::uint64_t steps = stepCount(options, config, poses, done);
   for (const soft_tissue::TissueInfo& tissue : scene.tissues())
   {
     for (const std::string& remark : tissue.remarks)
@@ -206,12 +218,15 @@ void runScene(const RunOptions& options)
   }
 
   SummaryFile summary_file(options.json);
+  if (!options.save_state.empty())
+  {
+    scene.saveState(options.save_state);  // a wrong name shows now, not after a night
+  }
   Progress progress(steps, options.quiet);
-  soft_tissue::Snapshot snapshot;
   const soft_tissue::Timer timer;
   for (std::uint64_t step = 1; step <= steps; ++step)
   {
-    setTargets(scene, poses, static_cast<double>(step) * config.time_step_s);
+    setTargets(scene, poses, static_cast<double>(done + step) * config.time_step_s);
     scene.step();
     scene.fillSnapshot(snapshot);
     recorders.write(snapshot);
@@ -226,6 +241,10 @@ void runScene(const RunOptions& options)
   if (recorders.csv)
   {
     recorders.csv->close();
+  }
+  if (!options.save_state.empty())
+  {
+    scene.saveState(options.save_state);
   }
   summary_file.write(recorders.summary.json(wall_s));
   if (!options.quiet)

@@ -30,7 +30,7 @@ SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tis
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
   publisher_.start();
   loop_.start();
-  services_ = std::make_unique<SimServices>(node_, loop_);
+  services_ = std::make_unique<SimServices>(node_, info_, params_.publish_clock, loop_);
 }
 
 SimNode::~SimNode()

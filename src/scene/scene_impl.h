@@ -25,7 +25,7 @@ constexpr double kFailedResidual = 0.05;
 /** The scene itself. Building is in scene_build.cpp, its contacts in
  * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
  * scene_step.cpp and scene_inertia.cpp, resting in scene_sleep.cpp, reading out in scene.cpp,
- * saving and loading in scene_state.cpp. */
+ * saving and loading in scene_state.cpp, materials anew in scene_material.cpp. */
 class Scene::Impl
 {
  public:
@@ -37,6 +37,7 @@ class Scene::Impl
   void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
   void refuseDeepStart();
   VoxelSet setObstacle(std::size_t obstacle, VoxelSet cells, const Pose& X_WO);
+  void setMaterial(std::size_t tissue, const MaterialChange& change);
   std::uint64_t identity() const;
   std::string stateBytes();
   void exchange(StateArchive& archive);
@@ -211,6 +212,9 @@ class Scene::Impl
   void forgetWay();
   void finishStep();
   void collectContacts();
+  void takeMaterial(std::size_t tissue);
+  double stiffnessOf(const ContactConfig& config, const Contact& contact) const;
+  void exchangeMaterials(StateArchive& archive);
   void exchangeStepper(StateArchive& archive);
   void exchangeTissues(StateArchive& archive);
   void exchangeTools(StateArchive& archive);

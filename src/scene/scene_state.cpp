@@ -17,6 +17,15 @@ void add(const std::string& name, StateHash& hash)
   hash.addValue(name.size());
   hash.add(name.data(), name.size());
 }
+
+void add(const PoseSeries& track, StateHash& hash)
+{
+  hash.add(track.times_s.data(), track.times_s.size() * sizeof(double));
+  for (const Pose& pose : track.poses_W)
+  {
+    hash.add(pose.data(), 16 * sizeof(double));
+  }
+}
 }  // namespace
 
 /** What tells scenes apart whose states can't stand for each other's: bodies, their places among
@@ -39,10 +48,23 @@ std::uint64_t Scene::Impl::identity() const
     hash.add(info.rest.tets.data(), info.rest.tets.size() * sizeof(Tet));
     hash.add(info.surface.triangles.data(), info.surface.triangles.size() * sizeof(Triangle));
     hash.add(info.fixed_nodes.data(), info.fixed_nodes.size() * sizeof(Index));
-    hash.addValue(config_.softBody(k).material.relaxation.size());
+    const MaterialConfig& material = config_.softBody(k).material;
+    hash.addValue(material.model);
+    hash.addValue(material.mass_damping_per_s);
+    hash.addValue(material.stiffness_damping_s);
+    for (const RelaxationBranch& branch : material.relaxation)
+    {
+      hash.addValue(branch.relative_modulus);
+      hash.addValue(branch.relaxation_time);
+    }
     if (k < config_.tissues.size())
     {
       hash.addValue(config_.tissues[k].element);
+      for (const RegionConfig& region : config_.tissues[k].regions)
+      {
+        hash.addValue(region.tag);
+        hash.addValue(region.model.value_or(material.model));
+      }
       add(config_.tissues[k].field.method, hash);
       hash.addValue(config_.tissues[k].field.depth);
       hash.addValue(config_.tissues[k].field.refresh);
@@ -51,12 +73,13 @@ std::uint64_t Scene::Impl::identity() const
   for (const MovedNodes& moved : moved_)
   {
     hash.add(moved.rows.data(), moved.rows.size() * sizeof(Index));
-    hash.add(moved.track.times_s.data(), moved.track.times_s.size() * sizeof(double));
+    add(moved.track, hash);
   }
-  for (const ToolInfo& tool : tool_info_)
+  for (std::size_t k = 0; k < tools_.size(); ++k)
   {
-    add(tool.name, hash);
-    add(tool.surface.nodes, hash);
+    add(tool_info_[k].name, hash);
+    add(tool_info_[k].surface.nodes, hash);
+    add(tools_[k].track, hash);
   }
   for (const ObstacleInfo& obstacle : obstacle_info_)
   {
@@ -72,6 +95,8 @@ std::uint64_t Scene::Impl::identity() const
     hash.addValue(contact.friction);
     hash.addValue(contact.damping_s_per_m);
     hash.addValue(contact.max_penetration_m.value_or(0.0));
+    hash.addValue(contact.stiffness_pa_per_m.value_or(0.0));
+    hash.addValue(contact.penalty.value_or(0.0));
   }
   return hash.value();
 }
@@ -79,6 +104,8 @@ std::uint64_t Scene::Impl::identity() const
 /** Writes the state, or goes on from one that is read. Who has more to remember adds a section. */
 void Scene::Impl::exchange(StateArchive& archive)
 {
+  archive.section("materials");
+  exchangeMaterials(archive);
   archive.section("sleep");
   archive.values(asleep_);
   archive.values(quiet_s_);

@@ -29,6 +29,8 @@ class TissueElasticity
   void save();
   void restore();
   void addTo(StateHash& hash) const;
+  /** Takes over what another one of the same body remembers. */
+  void remember(const TissueElasticity& other);
   /** Writes, or reads, what it remembers. */
   void exchange(StateArchive& archive);
 

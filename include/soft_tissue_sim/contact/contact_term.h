@@ -62,6 +62,8 @@ class ContactTerm : public EnergyTerm
   /** Length of the step that begins next, s; infinite where there is no time. */
   void setStep(double step_s);
 
+  /** Takes another stiffness than that of the options. */
+  void setBaseStiffness(double pa_per_m);
   /** Multiplies the options' stiffness from now on; 1 at first. */
   void setStiffening(double factor);
   double stiffening() const { return stiffening_; }

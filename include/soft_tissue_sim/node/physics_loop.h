@@ -19,6 +19,7 @@
 #include "soft_tissue_sim/node/latest_exchange.h"
 #include "soft_tissue_sim/node/real_time_meter.h"
 #include "soft_tissue_sim/node/step_schedule.h"
+#include "soft_tissue_sim/scene/material_change.h"
 #include "soft_tissue_sim/scene/scene.h"
 
 namespace soft_tissue_sim
@@ -83,6 +84,21 @@ class PhysicsLoop
   std::optional<double> step(std::uint32_t steps);
   /** Rest shape and initial tool poses; commands given before are forgotten; time goes on. */
   void resetWorld();
+  /** The same, and time begins again at zero. */
+  void resetSimulation();
+  /** Where the simulation stood when something was done to it. */
+  struct Moment
+  {
+    std::uint64_t step = 0;
+    double time_s = 0.0;
+    std::uint64_t state_hash = 0;
+  };
+  /** @throws soft_tissue::Error as Scene::saveState() */
+  Moment saveState(const std::string& file);
+  /** Commands given before are forgotten. @throws soft_tissue::Error as Scene::loadState() */
+  Moment loadState(const std::string& file);
+  /** @throws soft_tissue::Error as Scene::setMaterial() */
+  void setMaterial(std::size_t tissue, const soft_tissue::MaterialChange& change);
 
   LatestExchange<Frame>& frames() { return frames_; }
   const LoopCounters& counters() const { return counters_; }
@@ -91,8 +107,11 @@ class PhysicsLoop
   void run();
   void runTasks();
   void waitForTask(double seconds);
-  void execute(std::function<void()> task);
+  bool execute(std::function<void()> task);
+  void demand(std::function<void()> task);
   void takeMap(std::size_t obstacle);
+  void forgetCommands();
+  Moment now();
   bool stepIfDue();
   bool clockHasStarted();
   void aimTools(bool at_once);
@@ -122,6 +141,7 @@ class PhysicsLoop
   std::mutex map_mutex_;
   std::vector<std::shared_ptr<Map>> maps_;  ///< per obstacle, null: none
   std::vector<soft_tissue::VoxelSet> spent_;
+  soft_tissue::Snapshot asked_;  ///< of now()
 
   LatestExchange<Frame> frames_;
   LoopCounters counters_;

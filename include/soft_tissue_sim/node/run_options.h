@@ -23,6 +23,8 @@ struct RunOptions
   std::string bag_out;
   std::string csv;
   std::string json;
+  std::string load_state;  ///< file to go on from; empty: from the start
+  std::string save_state;  ///< file to end with; empty: none
   std::string world_frame = "world";
   double state_rate_hz = 30.0;  ///< most tissue states a simulated second in the bag; 0: every step
   int threads = 0;              ///< 0: one per processor

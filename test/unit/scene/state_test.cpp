@@ -159,7 +159,7 @@ std::vector<Case> cases()
          static_cast<SoftBodyConfig&>(skin) = config.tissues[0];
          skin.name = "skin";
          skin.mesh.file = folder.path("skin.stl");
-         saveStl(skin.mesh.file, makeSheet({6, 6}, {0.05, 0.05}));
+         saveStl(skin.mesh.file, makeSheet({6, 6}, {0.05, 0.05}, SheetPattern::irregular));
          skin.pose.position_m = Vec3(-0.025, -0.025, kBlockTop + 0.0004);
          skin.fixed.clear();
          skin.thickness_m = 0.0005;
