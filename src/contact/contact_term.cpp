@@ -99,6 +99,16 @@ void ContactTerm::setStep(double step_s)
   friction_->setStep(step_s);
 }
 
+void ContactTerm::setBaseStiffness(double pa_per_m)
+{
+  if (pa_per_m != options_.stiffness_pa_per_m)
+  {
+    options_.stiffness_pa_per_m = pa_per_m;
+    forgetSamples();
+    setStiffening(stiffening_);
+  }
+}
+
 void ContactTerm::setStiffening(double factor)
 {
   have_samples_ = have_samples_ && factor == stiffening_;
@@ -121,6 +131,41 @@ double ContactTerm::deepest(const Points& x)
     deepest = std::max(deepest, sample.depth);
   }
   return deepest;
+}
+
+double ContactTerm::deepestExcess(const Points& x)
+{
+  double deepest = 0.0;
+  for (const ContactSample& sample : samples(x))
+  {
+    deepest = std::max(deepest, sample.excess());
+  }
+  return deepest;
+}
+
+void ContactTerm::addTo(StateHash& hash) const
+{
+  hash.addValue(stiffening_);
+  friction_->addTo(hash);
+}
+
+void ContactTerm::exchange(StateArchive& archive, const Points& x)
+{
+  double factor = stiffening_;
+  archive.value(factor);
+  friction_->exchange(archive);
+  bool sampled = haveSamplesAt(x);
+  archive.value(sampled);
+  if (archive.reading())
+  {
+    forgetSamples();
+    setStiffening(factor);
+  }
+  exchangePlaces(archive);
+  if (archive.reading() && sampled)
+  {
+    samples(x);
+  }
 }
 
 const std::vector<FrictionForce>& ContactTerm::frictionForces(const Points& x)

@@ -52,6 +52,41 @@ void Friction::add(Grip grip)
   grips_.push_back(grip);
 }
 
+// The slip at a step's end is what its grips say there.
+void Friction::addTo(StateHash& hash) const
+{
+  for (const Grip& grip : grips_)
+  {
+    hash.addValue(grip.place);
+    hash.add(grip.normal.data(), sizeof(Vec3));
+    hash.add(grip.stuck_at.data(), sizeof(Vec3));
+    hash.add(grip.node.data(), grip.count * sizeof(Index));
+    hash.add(grip.weight.data(), grip.count * sizeof(double));
+  }
+}
+
+void Friction::exchange(StateArchive& archive)
+{
+  std::uint64_t count = grips_.size();
+  archive.value(count);
+  if (archive.reading())
+  {
+    grips_.assign(count, Grip());
+    slipped_.clear();
+  }
+  for (Grip& grip : grips_)
+  {
+    archive.value(grip.place);
+    archive.value(grip.normal);
+    archive.value(grip.press);
+    archive.value(grip.count);
+    archive.value(grip.node);
+    archive.value(grip.weight);
+    archive.value(grip.stuck_at);
+    archive.value(grip.origin);
+  }
+}
+
 void Friction::forget()
 {
   grips_.clear();

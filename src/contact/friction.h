@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "soft_tissue_sim/base/hash.h"
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/base/types.h"
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/energy/block_matrix.h"
@@ -65,6 +67,10 @@ class Friction
   void begin(const Points& x);
   /** Adds a grip, by ascending places; it goes on with what was slipped at its place. */
   void add(Grip grip);
+  /** Adds all slips. */
+  void addTo(StateHash& hash) const;
+  /** Writes, or reads, all slips. */
+  void exchange(StateArchive& archive);
   /** Forgets all slips. */
   void forget();
 

@@ -59,6 +59,14 @@ const std::vector<double>& HostField::depth() const
   return field_->depth().size() == no_depth_.size() ? field_->depth() : no_depth_;
 }
 
+void HostField::exchange(StateArchive& archive)
+{
+  archive.value(refresh_);
+  archive.value(forgotten_);
+  archive.value(checked_);
+  field_->exchange(archive);
+}
+
 double HostField::takeTime()
 {
   return std::exchange(seconds_, 0.0);

@@ -34,6 +34,9 @@ class HostField
   /** Nodal depths of the last march; all NaN before the first. */
   const std::vector<double>& depth() const;
 
+  /** Writes, or reads into one that has just begun the same step, what it has found. */
+  void exchange(StateArchive& archive);
+
   /** Wall time of marches since the last call, s. */
   double takeTime();
 

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "body_motion.h"
+#include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "tissue_in_tool.h"
 #include "tool_grip.h"
@@ -26,6 +28,14 @@ RigidBodyShape bodyOf(const std::shared_ptr<VoxelShape>& shape, const Pose& X_WO
 
 struct ObstacleContact::Parts
 {
+  /** Has the obstacle's surface around a box of its frame. */
+  void cover(Box3 reach_O)
+  {
+    reach_O.grow(kCovered * obstacle->cells().cellSize());
+    obstacle->cover(reach_O);
+    tissue_in_obstacle.place(Pose::Identity());
+  }
+
   TissueBody tissue;
   std::shared_ptr<VoxelShape> obstacle;
   Pose X_OW;
@@ -35,6 +45,8 @@ struct ObstacleContact::Parts
   Points start;         ///< the tissue at the start of the step
   double margin = 0.0;  ///< how far it may move before the selection is too small, m
   BoxSelection selection;
+  Box3 changing;               ///< where the obstacle is about to change, world
+  std::vector<double> excess;  ///< of elements, before that
 
   Parts(const TissueBody& tissue_body, std::shared_ptr<VoxelShape> shape, const Pose& X_WO,
         const ContactOptions& options)
@@ -93,12 +105,9 @@ void ObstacleContact::select()
   Parts& p = *parts_;
   Box3 reach = boundsOf(p.start, p.tissue.surface->nodes);
   reach.grow(p.margin);
-  Box3 reach_O = transformed(p.X_OW, reach);
+  const Box3 reach_O = transformed(p.X_OW, reach);
   p.selection.clear();
-  Box3 covered_O = reach_O;
-  covered_O.grow(kCovered * p.obstacle->cells().cellSize());
-  p.obstacle->cover(covered_O);
-  p.tissue_in_obstacle.place(Pose::Identity());
+  p.cover(reach_O);
   if (p.obstacle->touches(reach_O))
   {
     p.selection.select(p.start, {}, *p.tissue.surface, reach);
@@ -133,6 +142,90 @@ DepthCurvature ObstacleContact::curvature(const ContactSample& sample) const
 void ObstacleContact::setStiffness(double pa_per_m)
 {
   parts_->tissue_in_obstacle.setStiffness(pa_per_m);
+}
+
+void ObstacleContact::beforeChange(const Points& x, const Box3& box_W)
+{
+  Parts& p = *parts_;
+  takeBodies(x);
+  forgetSamples();
+  p.cover(transformed(p.X_OW, boundsOf(body(0), p.tissue.surface->nodes)));
+  // The depth of what is near may change as well.
+  p.changing = box_W;
+  p.changing.grow(kCovered * p.obstacle->cells().cellSize());
+  p.tissue_in_obstacle.findExcess(body(0), p.changing, p.excess);
+}
+
+void ObstacleContact::afterChange(const Points& x, const Pose& X_WO)
+{
+  Parts& p = *parts_;
+  takeBodies(x);
+  setPose(X_WO);
+  p.cover(transformed(p.X_OW, boundsOf(body(0), p.tissue.surface->nodes)));
+  p.tissue_in_obstacle.allowMore(body(0), p.changing, p.excess);
+}
+
+void ObstacleContact::allowAll(const Points& x)
+{
+  Parts& p = *parts_;
+  setAllowances({});
+  takeBodies(x);
+  const Box3 bounds = boundsOf(body(0), p.tissue.surface->nodes);
+  p.cover(transformed(p.X_OW, bounds));
+  p.excess.assign(p.tissue_in_obstacle.elementCount(), 0.0);
+  p.tissue_in_obstacle.allowMore(body(0), bounds, p.excess);
+}
+
+double ObstacleContact::easeAllowances(double by)
+{
+  forgetSamples();
+  return parts_->tissue_in_obstacle.easeAllowances(by);
+}
+
+const std::vector<double>& ObstacleContact::allowances() const
+{
+  return parts_->tissue_in_obstacle.allowances();
+}
+
+void ObstacleContact::setAllowances(const std::vector<double>& depths_m)
+{
+  forgetSamples();
+  if (!depths_m.empty() && depths_m.size() != parts_->tissue_in_obstacle.elementCount())
+  {
+    throw Error("obstacle: " + std::to_string(depths_m.size()) + " allowances for " +
+                std::to_string(parts_->tissue_in_obstacle.elementCount()) + " elements");
+  }
+  parts_->tissue_in_obstacle.setAllowances(depths_m);
+}
+
+void ObstacleContact::addTo(StateHash& hash) const
+{
+  ContactTerm::addTo(hash);
+  hash.add(allowances().data(), allowances().size() * sizeof(double));
+}
+
+void ObstacleContact::exchangePlaces(StateArchive& archive)
+{
+  Parts& p = *parts_;
+  std::vector<double> allowed = allowances();
+  archive.list(allowed);
+  archive.list(p.start);
+  archive.value(p.margin);
+  if (archive.reading())
+  {
+    setAllowances(allowed);
+    if (!p.start.empty())
+    {
+      select();
+    }
+  }
+}
+
+void ObstacleContact::setPose(const Pose& X_WO)
+{
+  parts_->X_OW = X_WO.inverse();
+  parts_->body = bodyOf(parts_->obstacle, X_WO);
+  forgetSamples();
 }
 
 bool ObstacleContact::active() const

@@ -48,6 +48,9 @@ class SurfaceInTissue
   /** Appends the samples of what findHosts() found. */
   void addSamples(const DistanceField& field, std::vector<ContactSample>& samples);
 
+  /** Writes, or reads, what later samples depend on beside what a step begins with. */
+  void exchange(StateArchive& archive) { depth_.exchange(archive); }
+
   /** Of one of those samples. */
   DepthCurvature curvature(const ContactSample& sample) const
   {

@@ -221,6 +221,28 @@ bool TissueContact::active() const
   return parts_->near;
 }
 
+void TissueContact::exchangePlaces(StateArchive& archive)
+{
+  Parts& p = *parts_;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k)
+  {
+    archive.list(p.start[k]);
+    archive.list(p.expected[k]);
+  }
+  archive.value(p.margin);
+  archive.value(p.near);
+  for (std::size_t k = 0; k < p.sides.size(); ++k)
+  {
+    if (archive.reading() && !p.start[0].empty())
+    {
+      p.sides[k].beginStep({&p.start[p.intruder(k)], &p.start[p.host(k)],
+                            &p.expected[p.intruder(k)], &p.expected[p.host(k)]},
+                           p.margin, false);
+    }
+    p.sides[k].exchange(archive);
+  }
+}
+
 void TissueContact::forgetField()
 {
   for (TissueInTissue& side : parts_->sides)

@@ -127,20 +127,46 @@ void TissueDepth::prepare(const Points& x)
   {
     return;
   }
-  if (tree_.empty())
-  {
-    tree_.build(tissue_.surface->triangles, x);
-  }
-  else
-  {
-    tree_.refit(x);
-  }
   tree_nodes_.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     tree_nodes_[i] = x[nodes[i]];
   }
+  if (tree_.empty())
+  {
+    tree_.build(tissue_.surface->triangles, x);
+    built_nodes_ = tree_nodes_;
+  }
+  else
+  {
+    tree_.refit(x);
+  }
   moved_ = 0.0;
+}
+
+// Of triangles equally near the tree decides, which keeps the shape it was built with.
+void TissueDepth::exchange(StateArchive& archive)
+{
+  archive.list(built_nodes_);
+  archive.list(tree_nodes_);
+  if (!archive.reading())
+  {
+    return;
+  }
+  tree_ = TriangleTree();
+  const auto all = [&](const Points& nodes) {
+    Points x(tissue_.node_count, Vec3::Zero());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      x.at(tissue_.surface->nodes.at(i)) = nodes[i];
+    }
+    return x;
+  };
+  if (!built_nodes_.empty())
+  {
+    tree_.build(tissue_.surface->triangles, all(built_nodes_));
+    tree_.refit(all(tree_nodes_));
+  }
 }
 
 bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,

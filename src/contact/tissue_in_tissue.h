@@ -55,6 +55,13 @@ class TissueInTissue
     surface_.addSamples(field_.ready(), samples);
   }
 
+  /** Writes, or reads into one that has just begun the same step, what it has found. */
+  void exchange(StateArchive& archive)
+  {
+    field_.exchange(archive);
+    surface_.exchange(archive);
+  }
+
   /** Of one of those samples. */
   DepthCurvature curvature(const ContactSample& sample) const { return surface_.curvature(sample); }
 

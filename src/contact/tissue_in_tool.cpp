@@ -1,6 +1,7 @@
 #include "tissue_in_tool.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "moving_ends.h"
 #include "soft_tissue_sim/collision/inside_intervals.h"
@@ -75,6 +76,66 @@ void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& sampl
   }
 }
 
+double TissueInTool::allowedTo(const SurfaceElement& element) const
+{
+  return allowed_.empty() ? 0.0 : allowed_[&element - surface_.all().data()];
+}
+
+// Between the ends of an edge a wall may stand that none of them is in.
+void TissueInTool::findExcess(const Points& x, const Box3& box_W, std::vector<double>& excess) const
+{
+  excess.assign(surface_.size(), -std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < surface_.size(); ++i)
+  {
+    const SurfaceElement& element = surface_.all()[i];
+    const Vec3& a = x[element.nodes[0]];
+    const Vec3 along = x[element.nodes[1]] - a;
+    Box3 box;
+    box.extend(a);
+    box.extend(Vec3(a + along));
+    if (!box.overlaps(box_W))
+    {
+      continue;
+    }
+    const int cells = cellsOf(along.norm(), cell_length_);
+    for (int k = 0; k <= cells; ++k)
+    {
+      const Vec3 p = a + static_cast<double>(k) / cells * along;
+      excess[i] = std::max(excess[i], -tool_.distance(X_TW_ * p).distance);
+    }
+    excess[i] -= allowedTo(element);
+  }
+}
+
+void TissueInTool::allowMore(const Points& x, const Box3& box_W, const std::vector<double>& excess)
+{
+  findExcess(x, box_W, deepest_);
+  allowed_.resize(surface_.size(), 0.0);
+  for (std::size_t i = 0; i < surface_.size(); ++i)
+  {
+    const double more = deepest_[i] - std::max(excess[i], 0.0);
+    if (more > 0.0)
+    {
+      allowed_[i] += more;
+    }
+  }
+}
+
+double TissueInTool::easeAllowances(double by)
+{
+  double largest = 0.0;
+  for (double& allowed : allowed_)
+  {
+    allowed = std::max(0.0, allowed - by);
+    largest = std::max(largest, allowed);
+  }
+  if (largest == 0.0)
+  {
+    allowed_.clear();
+  }
+  return largest;
+}
+
 bool TissueInTool::measure(const Vec3& p, const SurfaceElement& element, double weight,
                            ContactSample& sample) const
 {
@@ -84,9 +145,10 @@ bool TissueInTool::measure(const Vec3& p, const SurfaceElement& element, double 
   sample.gradient = -(X_WT_.linear() * at.normal);
   sample.area = share_ * weight * element.area;
   sample.stiffness_area = options_.stiffness_pa_per_m * element.per_area * sample.area;
-  sample.force = sample.stiffness_area * sample.depth;
+  sample.allowed = allowedTo(element);
+  sample.force = sample.stiffness_area * sample.excess();
   sample.side = -1;
-  return sample.depth > 0.0;
+  return sample.excess() > 0.0;
 }
 
 DepthCurvature TissueInTool::curvature(const ContactSample& sample) const

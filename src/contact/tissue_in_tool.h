@@ -32,11 +32,28 @@ class TissueInTool
   /** Of those elements, leaves out what stays outside while no node moves farther than this, m. */
   void dropFarther(const Points& x, double margin);
 
+  std::size_t elementCount() const { return surface_.size(); }
+
   /** Whether any element is left that may touch. */
   bool any() const { return !near_.empty(); }
 
   /** Appends the samples of those elements at x, positions of the body alone, m. */
   void addSamples(const Points& x, std::vector<ContactSample>& samples) const;
+
+  /** How deep each element is in the tool at x at its deepest, less what it is allowed: what of it
+   * presses, m, <= 0 outside; elements that a box does not overlap have -infinity. */
+  void findExcess(const Points& x, const Box3& box_W, std::vector<double>& excess) const;
+  /**
+   * Has elements in a box press no harder than they did, however deep they are now: they are
+   * allowed the difference.
+   * @param excess  of findExcess(), before the tool became another
+   */
+  void allowMore(const Points& x, const Box3& box_W, const std::vector<double>& excess);
+  /** What elements are allowed, m; empty: nothing. */
+  const std::vector<double>& allowances() const { return allowed_; }
+  void setAllowances(const std::vector<double>& allowed) { allowed_ = allowed; }
+  /** Takes so much of every allowance, m. @return the largest there is */
+  double easeAllowances(double by);
 
   /** Of one of those samples. */
   DepthCurvature curvature(const ContactSample& sample) const;
@@ -46,6 +63,7 @@ class TissueInTool
                 std::vector<ContactSample>& samples) const;
   void addEdge(const SurfaceElement& edge, const Points& x,
                std::vector<ContactSample>& samples) const;
+  double allowedTo(const SurfaceElement& element) const;
   /** @param weight  of the element's area */
   bool measure(const Vec3& p, const SurfaceElement& element, double weight,
                ContactSample& sample) const;
@@ -59,7 +77,9 @@ class TissueInTool
   Pose X_TW_ = Pose::Identity();
   Box3 bounds_W_;
   SurfaceElements surface_;
-  std::vector<Index> near_;  ///< elements of it that may touch
+  std::vector<Index> near_;      ///< elements of it that may touch
+  std::vector<double> allowed_;  ///< per element, depth that presses nothing, m; empty: none
+  std::vector<double> deepest_;  ///< of allowMore()
 };
 
 }  // namespace soft_tissue

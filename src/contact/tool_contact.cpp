@@ -182,6 +182,41 @@ bool ToolContact::active() const
   return !parts_->selection.empty();
 }
 
+void ToolContact::exchangePlaces(StateArchive& archive)
+{
+  Parts& p = *parts_;
+  bool any = !p.selection.empty();
+  archive.value(p.X_WT);
+  archive.list(p.start);
+  archive.value(p.swept.min);
+  archive.value(p.swept.max);
+  archive.value(p.margin);
+  archive.value(any);
+  if (archive.reading())
+  {
+    p.tissue_in_tool.place(p.X_WT);
+    p.selection.clear();
+    if (any)
+    {
+      if (p.tool_in_tissue)
+      {
+        p.tool_in_tissue->place(p.X_WT);
+      }
+      select();
+    }
+    if (p.field)
+    {
+      p.field->beginStep(p.start, false);
+      p.field->expect(p.selection.tetNodes());
+    }
+  }
+  if (p.field)
+  {
+    p.field->exchange(archive);
+    p.tool_in_tissue->exchange(archive);
+  }
+}
+
 void ToolContact::forgetField()
 {
   if (parts_->field)

@@ -33,6 +33,8 @@ class ToolInTissue
     surface_.addSamples(field, samples);
   }
 
+  void exchange(StateArchive& archive) { surface_.exchange(archive); }
+
   /** Of one of those samples. */
   DepthCurvature curvature(const ContactSample& sample) const { return surface_.curvature(sample); }
 

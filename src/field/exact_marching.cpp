@@ -56,11 +56,30 @@ void ExactMarching::begin(const Points& x)
   {
     tree_.build(topology_.surface->triangles, x);
     makeOrder(x);
+    built_at_ = x;
   }
   else
   {
     tree_.refit(x);
   }
+}
+
+// Of triangles equally near the tree and the hint decide.
+void ExactMarching::exchange(StateArchive& archive)
+{
+  archive.list(built_at_);
+  if (archive.reading())
+  {
+    tree_ = TriangleTree();
+    order_.clear();
+    rank_.assign(nodeCount(), -1);
+    if (!built_at_.empty())
+    {
+      begin(Points(built_at_));
+    }
+  }
+  archive.values(hint_);
+  NodalField::exchange(archive);
 }
 
 void ExactMarching::makeOrder(const Points& x)

@@ -19,6 +19,7 @@ class ExactMarching : public NodalField
 
   void march(const Points& x) override;
   void marchUntil(const Points& x, const std::vector<Index>& wanted) override;
+  void exchange(StateArchive& archive) override;
 
  private:
   void begin(const Points& x);
@@ -26,6 +27,7 @@ class ExactMarching : public NodalField
   int visit(Index node, Index chunk_begin, const Points& x);
 
   TriangleTree tree_;
+  Points built_at_;           ///< where nodes were when the tree and the order were made
   std::vector<Index> order_;  ///< inner nodes
   std::vector<Index> rank_;   ///< per node: place in order_; -1 on the boundary
   std::vector<Index> hint_;   ///< per node: the triangle nearest to it when last marched, or -1

@@ -70,6 +70,7 @@ void GridMarching::marchGrid(const Points& x)
   else
   {
     grid_.emplace(grid, GridOrder::second);
+    built_at_ = x;
   }
   const std::uint64_t before = grid_->evaluations();
   grid_->march(*topology_.surface, x);
@@ -120,12 +121,35 @@ void GridMarching::fitTree(const Points& x)
   {
     // To build it needs finite triangles, not to search them.
     tree_.build(topology_.surface->triangles, finiteOf(x));
+    tree_built_at_ = x;
   }
   if (!tree_fits_)
   {
     tree_.refit(x);
     tree_fits_ = true;
   }
+}
+
+// Every march begins with the whole grid: only its size, and the tree's shape, stay.
+void GridMarching::exchange(StateArchive& archive)
+{
+  archive.list(built_at_);
+  archive.list(tree_built_at_);
+  if (archive.reading())
+  {
+    grid_.reset();
+    tree_ = TriangleTree();
+    tree_fits_ = false;
+    if (!built_at_.empty())
+    {
+      grid_.emplace(placed(built_at_), GridOrder::second);
+    }
+    if (!tree_built_at_.empty())
+    {
+      tree_.build(topology_.surface->triangles, finiteOf(tree_built_at_));
+    }
+  }
+  NodalField::exchange(archive);
 }
 
 void GridMarching::read(Index node, const Points& x)

@@ -23,6 +23,7 @@ class GridMarching : public NodalField
   void march(const Points& x) override;
   /** The whole grid is marched; what is saved is reading it. */
   void marchUntil(const Points& x, const std::vector<Index>& wanted) override;
+  void exchange(StateArchive& archive) override;
 
  private:
   void marchGrid(const Points& x);
@@ -33,6 +34,8 @@ class GridMarching : public NodalField
   int points_;
   bool planar_ = true;
   std::optional<GridField> grid_;
+  Points built_at_;         ///< where nodes were when the grid was made
+  Points tree_built_at_;    ///< and the tree
   TriangleTree tree_;       ///< for nodes the grid shows no depth for
   bool tree_fits_ = false;  ///< to the positions being marched
 };

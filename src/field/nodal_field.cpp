@@ -56,6 +56,14 @@ void NodalField::forgetMarch(const Points& x)
   touched_.clear();
 }
 
+void NodalField::exchange(StateArchive& archive)
+{
+  archive.values(depth_);
+  archive.values(closest_);
+  archive.list(touched_);
+  archive.value(evaluations_);
+}
+
 Points NodalField::finiteOf(Points x)
 {
   for (Vec3& p : x)

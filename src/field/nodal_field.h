@@ -12,6 +12,7 @@ class NodalField : public DistanceField
   const std::vector<double>& depth() const override { return depth_; }
   const std::vector<Index>& closestTriangle() const override { return closest_; }
   std::uint64_t evaluations() const override { return evaluations_; }
+  void exchange(StateArchive& archive) override;
 
  protected:
   /** @throws Error if parts of the topology are missing or don't match */

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <tuple>
 
 #include "signed_surface.h"
+#include "soft_tissue_sim/base/error.h"
 #include "surface_grid.h"
 #include "voxel_net.h"
 
@@ -17,6 +19,8 @@ constexpr int kPatch = 16;  ///< cells along each edge of a patch
 
 /** A ball about the surface that has lost its direction, in the size of a patch. */
 constexpr double kOnSurface = 1e-12;
+
+constexpr double kEverywhere = 1e9;  // m
 
 bool before(const Cell& a, const Cell& b)
 {
@@ -43,9 +47,21 @@ CellBox patchesOf(const CellBox& cells)
           (cells.high - Cell::Ones()).eval().unaryExpr(patchOf) + Cell::Ones()};
 }
 
-CellBox common(const CellBox& a, const CellBox& b)
+/** Calls visit(at) for the patches of a box, ascending. */
+template <typename Visit>
+void forEachPatch(const CellBox& patches, const Visit& visit)
 {
-  return {a.low.cwiseMax(b.low), a.high.cwiseMin(b.high)};
+  Cell at;
+  for (at.z() = patches.low.z(); at.z() < patches.high.z(); ++at.z())
+  {
+    for (at.y() = patches.low.y(); at.y() < patches.high.y(); ++at.y())
+    {
+      for (at.x() = patches.low.x(); at.x() < patches.high.x(); ++at.x())
+      {
+        visit(at);
+      }
+    }
+  }
 }
 }  // namespace
 
@@ -88,27 +104,32 @@ bool VoxelShape::cover(const Box3& reach)
 /** Makes the patches of a box of patches that there aren't yet. */
 void VoxelShape::build(const CellBox& patches)
 {
-  Cell at;
-  for (at.z() = patches.low.z(); at.z() < patches.high.z(); ++at.z())
-  {
-    for (at.y() = patches.low.y(); at.y() < patches.high.y(); ++at.y())
+  forEachPatch(patches, [&](const Cell& at) {
+    if (!covered_.contains({at, at + Cell::Ones()}))
     {
-      for (at.x() = patches.low.x(); at.x() < patches.high.x(); ++at.x())
-      {
-        if (covered_.contains({at, at + Cell::Ones()}) || !cells_.mixed(grown(cellsOf(at), 1)))
-        {
-          continue;
-        }
-        VoxelNet net = voxelNet(cells_, cellsOf(at));
-        if (!net.mesh.triangles.empty())
-        {
-          patches_.push_back({at, {}});
-          patches_.back().surface.build(std::move(net.mesh), std::move(net.normals), kOnSurface);
-        }
-      }
+      addPatch(at);
     }
-  }
+  });
   covered_ = patches;
+  finishPatches();
+}
+
+void VoxelShape::addPatch(const Cell& at)
+{
+  if (!cells_.mixed(grown(cellsOf(at), 1)))
+  {
+    return;
+  }
+  VoxelNet net = voxelNet(cells_, cellsOf(at));
+  if (!net.mesh.triangles.empty())
+  {
+    patches_.push_back({at, {}});
+    patches_.back().surface.build(std::move(net.mesh), std::move(net.normals), kOnSurface);
+  }
+}
+
+void VoxelShape::finishPatches()
+{
   std::sort(patches_.begin(), patches_.end(),
             [](const Patch& a, const Patch& b) { return before(a.at, b.at); });
   boxes_.clear();
@@ -116,6 +137,14 @@ void VoxelShape::build(const CellBox& patches)
   {
     boxes_.push_back(patch.surface.bounds());
   }
+}
+
+void VoxelShape::remake(VoxelSet cells, const CellBox& patches)
+{
+  cells_ = std::move(cells);
+  patches_.clear();
+  covered_ = CellBox();
+  build(patches);
 }
 
 Box3 VoxelShape::covered() const
@@ -136,23 +165,71 @@ bool VoxelShape::touches(const Box3& box) const
                      [&](const Box3& patch) { return patch.overlaps(box); });
 }
 
-void VoxelShape::change(const CellBox& box, bool occupied)
+/** Covered patches whose surface depends on a cell that is not as in another set, ascending. */
+std::vector<Cell> VoxelShape::stalePatches(const VoxelSet& cells) const
 {
-  cells_.fill(box, occupied);
-  const CellBox stale = patchesOf(grown(box, voxelNetReach()));
-  patches_.erase(std::remove_if(patches_.begin(), patches_.end(),
-                                [&](const Patch& patch) {
-                                  return stale.contains({patch.at, patch.at + Cell::Ones()});
-                                }),
-                 patches_.end());
-  const CellBox all = covered_;
-  const CellBox again = common(stale, all);
-  if (!again.empty())
+  std::vector<Cell> stale;
+  forEachPatch(covered_.empty() ? covered_ : grown(covered_, 1), [&](const Cell& at) {
+    const CellBox differ = cells_.difference(cells, cellsOf(at));
+    if (differ.empty())
+    {
+      return;
+    }
+    forEachPatch(patchesOf(grown(differ, voxelNetReach())), [&](const Cell& near) {
+      if (covered_.contains({near, near + Cell::Ones()}))
+      {
+        stale.push_back(near);
+      }
+    });
+  });
+  std::sort(stale.begin(), stale.end(), before);
+  stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
+  return stale;
+}
+
+std::optional<Box3> VoxelShape::changes(const VoxelSet& cells) const
+{
+  if (cells.othersOccupied() != cells_.othersOccupied())
   {
-    covered_ = CellBox();
-    build(again);
-    covered_ = all;
+    return Box3{Vec3::Constant(-kEverywhere), Vec3::Constant(kEverywhere)};
   }
+  std::optional<Box3> box;
+  const auto take = [&](const CellBox& changed) {
+    box = box.value_or(Box3());
+    box->extend(Vec3(cells_.cellSize() * changed.low.cast<double>()));
+    box->extend(Vec3(cells_.cellSize() * changed.high.cast<double>()));
+  };
+  for (const Cell& at : stalePatches(cells))
+  {
+    take(cellsOf(at));
+  }
+  // What is beyond all that there is has never been covered.
+  if (!cells_.bounds().contains(cells.bounds()))
+  {
+    take(cells.bounds());
+  }
+  return box;
+}
+
+VoxelSet VoxelShape::exchange(VoxelSet cells)
+{
+  if (cells.cellSize() != cells_.cellSize())
+  {
+    throw Error("voxels: cells of " + std::to_string(cells.cellSize()) +
+                " m can't take the place of cells of " + std::to_string(cells_.cellSize()) + " m");
+  }
+  const std::vector<Cell> stale = stalePatches(cells);
+  std::swap(cells_, cells);
+  const auto isStale = [&](const Patch& patch) {
+    return std::binary_search(stale.begin(), stale.end(), patch.at, before);
+  };
+  patches_.erase(std::remove_if(patches_.begin(), patches_.end(), isStale), patches_.end());
+  for (const Cell& at : stale)
+  {
+    addPatch(at);
+  }
+  finishPatches();
+  return cells;
 }
 
 // Patches are tried in the order of a list, ties go to the first: whatever else there is, the same

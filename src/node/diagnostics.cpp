@@ -39,11 +39,31 @@ void reportCommands(const CommandWatch& gate, DiagnosticStatusWrapper& status)
   status.add("tf failures: no transform at the stamp", gate.rejected(Rejection::no_transform));
 }
 
+void reportMaps(const MapInput& maps, DiagnosticStatusWrapper& status)
+{
+  const std::uint64_t rejected = maps.badMaps() + maps.withoutTransform();
+  if (maps.accepted() == 0)
+  {
+    status.summary(rejected > 0 ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                   rejected > 0 ? "no map accepted yet" : "waiting for the first map");
+  }
+  else
+  {
+    status.summary(DiagnosticStatus::OK, "maps come in");
+  }
+  status.add("accepted", maps.accepted());
+  status.add("rejected", rejected);
+  status.add("rejected: not usable", maps.badMaps());
+  status.add("tf failures", maps.withoutTransform());
+}
+
 }  // namespace
 
 Diagnostics::Diagnostics(const PhysicsLoop& loop, const SceneTopics& scene_topics,
-                         const std::vector<const CommandWatch*>& watches)
-    : loop_(loop), scene_topics_(scene_topics)
+                         const OctomapTopics* octomap_topics,
+                         const std::vector<const CommandWatch*>& watches,
+                         const std::deque<MapInput>& maps)
+    : loop_(loop), scene_topics_(scene_topics), octomap_topics_(octomap_topics)
 {
   updater_.setHardwareID("simulation");
   updater_.add("physics", this, &Diagnostics::reportPhysics);
@@ -51,6 +71,11 @@ Diagnostics::Diagnostics(const PhysicsLoop& loop, const SceneTopics& scene_topic
   {
     updater_.add(watch->what() + " commands",
                  [watch](DiagnosticStatusWrapper& status) { reportCommands(*watch, status); });
+  }
+  for (const MapInput& input : maps)
+  {
+    updater_.add(input.obstacle() + " maps",
+                 [&input](DiagnosticStatusWrapper& status) { reportMaps(input, status); });
   }
 }
 
@@ -97,6 +122,10 @@ void Diagnostics::reportPhysics(DiagnosticStatusWrapper& status)
   status.add("position error (m)", report_.position_error_m);
   status.add("bodies asleep", report_.sleeping);
   status.add("marker arrays built", scene_topics_.markerArraysBuilt());
+  if (octomap_topics_ != nullptr)
+  {
+    status.add("octomaps built", octomap_topics_->mapsBuilt());
+  }
 }
 
 }  // namespace soft_tissue_sim

@@ -32,7 +32,7 @@ double sizeOf(const soft_tissue::ToolInfo& tool)
 }  // namespace
 
 Inputs::Inputs(const ros::NodeHandle& node, const NodeParams& params, const SceneInfo& info,
-               PhysicsLoop& loop)
+               const std::vector<soft_tissue::ObstacleConfig>& obstacles, PhysicsLoop& loop)
     : node_(node),
       info_(info),
       listener_(buffer_),
@@ -43,6 +43,16 @@ Inputs::Inputs(const ros::NodeHandle& node, const NodeParams& params, const Scen
   {
     addPose(tool, loop);
     addJoints(tool, loop);
+  }
+  for (std::size_t k = 0; k < obstacles.size(); ++k)
+  {
+    if (!obstacles[k].octomap.topic.empty())
+    {
+      maps_.emplace_back(node_, obstacles[k], buffer_, params.world_frame, kTfPatience,
+                         [&loop, k](soft_tissue::VoxelSet cells, const soft_tissue::Pose& X_WO) {
+                           loop.setObstacle(k, std::move(cells), X_WO);
+                         });
+    }
   }
   timer_ = node_.createWallTimer(ros::WallDuration(1.0 / params.tf_poll_hz),
                                  [this](const ros::WallTimerEvent&) { poll(); });

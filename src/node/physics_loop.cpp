@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "soft_tissue_sim/base/error.h"
+
 namespace soft_tissue_sim
 {
 namespace
@@ -31,7 +33,8 @@ PhysicsLoop::PhysicsLoop(soft_tissue::Scene scene, const Config& config,
       config_(config),
       on_failure_(std::move(on_failure)),
       commands_(scene_.tools().size()),
-      schedule_(makeSchedule(scene_.config().time_step_s, config))
+      schedule_(makeSchedule(scene_.config().time_step_s, config)),
+      maps_(scene_.obstacles().size())
 {
   counters_.paused = config.paused;
 }
@@ -261,13 +264,7 @@ std::optional<double> PhysicsLoop::step(std::uint32_t steps)
 void PhysicsLoop::resetWorld()
 {
   execute([this] {
-    for (ToolCommands& commands : commands_)
-    {
-      commands.pose.clear();
-      commands.twist.clear();
-      commands.joints.clear();
-      commands.jaw.clear();
-    }
+    forgetCommands();
     scene_.resetWorld();
     ++resets_;
     publishFrame();
@@ -277,25 +274,124 @@ void PhysicsLoop::resetWorld()
 int PhysicsLoop::attach(const soft_tissue::AttachRequest& request)
 {
   int count = 0;
-  execute([&] { count = scene_.attach(request); });
+  demand([&] { count = scene_.attach(request); });
   return count;
 }
 
 int PhysicsLoop::detach(std::size_t tool, std::optional<std::size_t> part)
 {
   int count = 0;
-  execute([&] { count = scene_.detach(tool, part); });
+  demand([&] { count = scene_.detach(tool, part); });
   return count;
 }
 
-void PhysicsLoop::execute(std::function<void()> task)
+void PhysicsLoop::resetSimulation()
+{
+  execute([this] {
+    forgetCommands();
+    scene_.restart();
+    restartClocks();
+    ++resets_;
+    publishFrame();
+  });
+}
+
+PhysicsLoop::Moment PhysicsLoop::saveState(const std::string& file)
+{
+  Moment moment;
+  demand([&] {
+    scene_.saveState(file);
+    moment = now();
+  });
+  return moment;
+}
+
+PhysicsLoop::Moment PhysicsLoop::loadState(const std::string& file)
+{
+  Moment moment;
+  demand([&] {
+    scene_.loadState(file);
+    forgetCommands();
+    restartClocks();
+    ++resets_;
+    publishFrame();
+    moment = now();
+  });
+  return moment;
+}
+
+void PhysicsLoop::setMaterial(std::size_t tissue, const soft_tissue::MaterialChange& change)
+{
+  demand([&] { scene_.setMaterial(tissue, change); });
+}
+
+void PhysicsLoop::demand(std::function<void()> task)
+{
+  if (!execute(std::move(task)))
+  {
+    throw soft_tissue::Error("the simulation has ended");
+  }
+}
+
+void PhysicsLoop::forgetCommands()
+{
+  for (ToolCommands& commands : commands_)
+  {
+    commands.pose.clear();
+    commands.twist.clear();
+    commands.joints.clear();
+    commands.jaw.clear();
+  }
+}
+
+PhysicsLoop::Moment PhysicsLoop::now()
+{
+  scene_.fillSnapshot(asked_);
+  return {asked_.report.step, asked_.report.time_s, asked_.state_hash};
+}
+
+void PhysicsLoop::setObstacle(std::size_t obstacle, soft_tissue::VoxelSet cells,
+                              const soft_tissue::Pose& X_WO)
+{
+  std::vector<soft_tissue::VoxelSet> spent;  // let go of outside the lock
+  auto map = std::make_shared<Map>(Map{std::move(cells), X_WO});
+  {
+    const std::lock_guard<std::mutex> lock(map_mutex_);
+    maps_[obstacle].swap(map);
+    spent_.swap(spent);
+  }
+  if (map == nullptr)
+  {
+    const std::lock_guard<std::mutex> lock(task_mutex_);
+    if (accepting_)
+    {
+      tasks_.emplace_back([this, obstacle] { takeMap(obstacle); });
+    }
+    task_added_.notify_all();
+  }
+}
+
+void PhysicsLoop::takeMap(std::size_t obstacle)
+{
+  std::shared_ptr<Map> map;
+  {
+    const std::lock_guard<std::mutex> lock(map_mutex_);
+    map.swap(maps_[obstacle]);
+  }
+  soft_tissue::VoxelSet before = scene_.setObstacle(obstacle, std::move(map->cells), map->X_WO);
+  const std::lock_guard<std::mutex> lock(map_mutex_);
+  spent_.push_back(std::move(before));
+}
+
+/** @return whether it was done: not if the loop has ended */
+bool PhysicsLoop::execute(std::function<void()> task)
 {
   std::future<void> done;
   {
     const std::lock_guard<std::mutex> lock(task_mutex_);
     if (!accepting_)
     {
-      return;
+      return false;
     }
     tasks_.emplace_back(std::move(task));
     done = tasks_.back().get_future();
@@ -304,10 +400,11 @@ void PhysicsLoop::execute(std::function<void()> task)
   try
   {
     done.get();
+    return true;
   }
   catch (const std::future_error&)
   {
-    // The loop ended before it came to the task.
+    return false;  // it ended before it came to the task
   }
 }
 

@@ -129,6 +129,7 @@ Replay readReplay(const RunOptions& options)
   }
   replay.config.solver.budget_ms.reset();  // the same bits on a busy machine
   replay.steps = stepCount(options, replay.config, replay.poses);
+  replay.from_now = options.duration_s.has_value();
   return replay;
 }
 
@@ -136,7 +137,9 @@ void runReplay(soft_tissue::Scene& scene, const Replay& replay,
                const std::function<bool(const soft_tissue::Snapshot&)>& seen)
 {
   soft_tissue::Snapshot snapshot;
-  for (std::uint64_t step = 1; step <= replay.steps; ++step)
+  scene.fillSnapshot(snapshot);
+  const std::uint64_t done = snapshot.report.step, last = replay.lastStep(done);
+  for (std::uint64_t step = done + 1; step <= last; ++step)
   {
     setTargets(scene, replay.poses, static_cast<double>(step) * replay.config.time_step_s);
     scene.step();

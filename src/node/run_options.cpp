@@ -70,6 +70,8 @@ std::string runUsage()
          "zero\n"
          "  --identify NAMES     fits numbers of the scene to those forces, e.g.\n"
          "                       liver/young_modulus_pa,liver/probe/stiffness_pa_per_m\n"
+         "  --load-state FILE    go on from the state of a run of the same scene\n"
+         "  --save-state FILE    keep the state at the end\n"
          "  --frame-id FRAME     name of the world frame (world)\n"
          "  --threads N          threads a step may use; 0: one per processor\n"
          "  --quiet              print nothing but errors\n"
@@ -92,6 +94,8 @@ RunOptions parseRunOptions(const std::vector<std::string>& arguments)
         [&](const auto& name, const auto& text) { options.tare_s = parseNumber(name, text, 0.0); }},
        {"--identify", [&](const auto&, const auto& text) { options.identify = splitNames(text); }},
        {"--json", [&](const auto&, const auto& text) { options.json = text; }},
+       {"--load-state", [&](const auto&, const auto& text) { options.load_state = text; }},
+       {"--save-state", [&](const auto&, const auto& text) { options.save_state = text; }},
        {"--frame-id", [&](const auto&, const auto& text) { options.world_frame = text; }},
        {"--state-rate",
         [&](const auto& name, const auto& text) {

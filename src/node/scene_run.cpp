@@ -145,6 +145,13 @@ bool runScene(const RunOptions& options, const std::atomic<bool>* interrupted)
       std::fprintf(stderr, "note: tool '%s': %s\n", tool.name.c_str(), remark.c_str());
     }
   }
+  if (!options.load_state.empty())
+  {
+    scene.loadState(options.load_state);
+  }
+  soft_tissue::Snapshot start;
+  scene.fillSnapshot(start);
+  const std::uint64_t done = start.report.step, last = replay.lastStep(done);
   const SceneInfo info(scene);
   Recorders recorders{RunSummary(replay.config, info), nullptr, nullptr, nullptr};
   if (!options.bag_out.empty())
@@ -163,18 +170,26 @@ bool runScene(const RunOptions& options, const std::atomic<bool>* interrupted)
   }
 
   SummaryFile summary_file(options.json);
-  Progress progress(replay.steps, options.quiet);
-  std::uint64_t last_step = 0;
+  if (!options.save_state.empty())
+  {
+    scene.saveState(options.save_state);  // a wrong name shows now, not after a night
+  }
+  Progress progress(last - done, options.quiet);
+  std::uint64_t reached = done;
   const soft_tissue::Timer timer;
   runReplay(scene, replay, [&](const soft_tissue::Snapshot& snapshot) {
     recorders.write(snapshot);
-    progress.show(snapshot.report.step);
-    last_step = snapshot.report.step;
+    reached = snapshot.report.step;
+    progress.show(reached - done);
     return interrupted == nullptr || !*interrupted;
   });
   const double wall_s = timer.seconds();
 
   recorders.close(options);
+  if (!options.save_state.empty())
+  {
+    scene.saveState(options.save_state);
+  }
   summary_file.write(recorders.summary.json(wall_s, recorders.comparison.get()));
   if (!options.quiet)
   {
@@ -185,7 +200,7 @@ bool runScene(const RunOptions& options, const std::atomic<bool>* interrupted)
   {
     throw Error("scene " + replay.config.file + ": the result is not finite");
   }
-  return last_step == replay.steps;
+  return reached == last;
 }
 
 }  // namespace soft_tissue_sim

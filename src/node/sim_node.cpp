@@ -17,7 +17,7 @@ SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tis
 {
   try
   {
-    inputs_ = std::make_unique<Inputs>(node_, params_, info_, loop_);
+    inputs_ = std::make_unique<Inputs>(node_, params_, info_, config_.obstacles, loop_);
   }
   catch (const soft_tissue::Error& error)
   {
@@ -28,7 +28,7 @@ SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tis
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
   publisher_.start();
   loop_.start();
-  services_ = std::make_unique<SimServices>(node_, loop_);
+  services_ = std::make_unique<SimServices>(node_, info_, params_.publish_clock, loop_);
   attach_services_ = std::make_unique<AttachServices>(node_, info_, loop_);
 }
 
@@ -52,7 +52,14 @@ void SimNode::addOutputs()
                                                 params_.publish_clock, world, on_subscriber);
   distances_ = std::make_unique<DistanceService>(node_, info_, world);
   publisher_.addStream(0.0, [this](const Frame& frame) { distances_->note(frame); });
-  diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, inputs_->watches());
+  if (config_.outputs.octomap)
+  {
+    octomap_topics_ = std::make_unique<OctomapTopics>(node_, config_, info_, world, on_subscriber);
+    publisher_.addStream(config_.outputs.octomap->rate_hz,
+                         [this](const Frame& frame) { octomap_topics_->publish(frame); });
+  }
+  diagnostics_ = std::make_unique<Diagnostics>(loop_, *scene_topics_, octomap_topics_.get(),
+                                               inputs_->watches(), inputs_->maps());
   publisher_.addStream(0.0, [this](const Frame& frame) { diagnostics_->note(frame); });
   publisher_.addStream(0.0, [this](const Frame& frame) { inputs_->note(frame); });
   if (params_.publish_clock)

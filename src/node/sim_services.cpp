@@ -1,15 +1,69 @@
 #include "soft_tissue_sim/node/sim_services.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "soft_tissue_sim/base/error.h"
+
 namespace soft_tissue_sim
 {
-SimServices::SimServices(const ros::NodeHandle& node, PhysicsLoop& loop)
-    : loop_(loop), node_(node), spinner_(1, &queue_)
+namespace
+{
+/** Does what may be refused. */
+template <typename Act, typename Response>
+void answer(const Act& act, Response& response)
+{
+  try
+  {
+    act();
+    response.success = true;
+  }
+  catch (const soft_tissue::Error& error)
+  {
+    response.message = error.what();
+  }
+}
+
+/** Where a node's relative paths begin is nobody's choice. */
+void checkPath(const std::string& path)
+{
+  if (path.empty() || path[0] != '/')
+  {
+    throw soft_tissue::Error("path = '" + path + "', must be absolute");
+  }
+}
+
+template <typename Response>
+void tell(const PhysicsLoop::Moment& moment, Response& response)
+{
+  response.step = moment.step;
+  response.time = moment.time_s;
+  response.state_hash = moment.state_hash;
+}
+
+std::optional<double> given(double value)
+{
+  return std::isnan(value) ? std::nullopt : std::make_optional(value);
+}
+}  // namespace
+
+SimServices::SimServices(const ros::NodeHandle& node, const SceneInfo& info, bool owns_clock,
+                         PhysicsLoop& loop)
+    : info_(info), loop_(loop), node_(node), spinner_(1, &queue_)
 {
   node_.setCallbackQueue(&queue_);
   servers_.push_back(node_.advertiseService("pause_physics", &SimServices::pause, this));
   servers_.push_back(node_.advertiseService("unpause_physics", &SimServices::unpause, this));
   servers_.push_back(node_.advertiseService("step", &SimServices::step, this));
   servers_.push_back(node_.advertiseService("reset_world", &SimServices::reset, this));
+  if (owns_clock)
+  {
+    servers_.push_back(
+        node_.advertiseService("reset_simulation", &SimServices::resetSimulation, this));
+  }
+  servers_.push_back(node_.advertiseService("save_state", &SimServices::save, this));
+  servers_.push_back(node_.advertiseService("load_state", &SimServices::load, this));
+  servers_.push_back(node_.advertiseService("set_material", &SimServices::setMaterial, this));
   spinner_.start();
 }
 
@@ -42,6 +96,58 @@ bool SimServices::step(Step::Request& request, Step::Response& response)
 bool SimServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&)
 {
   loop_.resetWorld();
+  return true;
+}
+
+bool SimServices::resetSimulation(std_srvs::Empty::Request&, std_srvs::Empty::Response&)
+{
+  loop_.resetSimulation();
+  return true;
+}
+
+bool SimServices::save(SaveState::Request& request, SaveState::Response& response)
+{
+  answer(
+      [&] {
+        checkPath(request.path);
+        tell(loop_.saveState(request.path), response);
+      },
+      response);
+  return true;
+}
+
+bool SimServices::load(LoadState::Request& request, LoadState::Response& response)
+{
+  answer(
+      [&] {
+        checkPath(request.path);
+        tell(loop_.loadState(request.path), response);
+      },
+      response);
+  return true;
+}
+
+bool SimServices::setMaterial(SetMaterial::Request& request, SetMaterial::Response& response)
+{
+  const auto found =
+      std::find(info_.tissue_names.begin(), info_.tissue_names.end(), request.tissue);
+  if (found == info_.tissue_names.end())
+  {
+    std::string names;
+    for (const std::string& name : info_.tissue_names)
+    {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    response.message = "tissue = '" + request.tissue + "', must be one of: " + names;
+    return true;
+  }
+  soft_tissue::MaterialChange change;
+  change.region = request.has_region ? std::make_optional<int>(request.region) : std::nullopt;
+  change.young_modulus_pa = given(request.young_modulus);
+  change.poisson_ratio = given(request.poisson_ratio);
+  change.density_kg_per_m3 = given(request.density);
+  change.stiffening = given(request.stiffening);
+  answer([&] { loop_.setMaterial(found - info_.tissue_names.begin(), change); }, response);
   return true;
 }
 

@@ -11,7 +11,6 @@ namespace
 {
 constexpr const char* kBinary = "# Octomap OcTree binary file";
 constexpr const char* kFull = "# Octomap OcTree file";
-constexpr int kTreeDepth = 16;
 
 bool startsWith(const std::string& text, const std::string& start)
 {
@@ -31,56 +30,6 @@ T valueOf(const std::string& key, const std::string& text)
   return value;
 }
 
-/** Follows the nodes of a tree in the order they are stored in. */
-class TreeWalk
-{
- public:
-  TreeWalk(const std::string& bytes, const OctomapHeader& header)
-      : bytes_(bytes), at_(header.data_begin), binary_(header.binary), value_(header.colour ? 7 : 4)
-  {}
-
-  std::uint64_t nodes() const { return nodes_; }
-
-  void walk(int depth)
-  {
-    ++nodes_;
-    const std::size_t length = binary_ ? 2 : value_ + 1;
-    if (bytes_.size() - at_ < length)
-    {
-      throw Error("ends within node " + std::to_string(nodes_) + " of its tree: truncated?");
-    }
-    const auto byte = [&](std::size_t i) {
-      return static_cast<unsigned>(static_cast<unsigned char>(bytes_[at_ + i]));
-    };
-    const unsigned pairs = binary_ ? byte(0) | byte(1) << 8U : 0;
-    const unsigned inner = binary_ ? 0 : byte(value_);
-    at_ += length;
-    for (unsigned child = 0; child < 8; ++child)
-    {
-      const unsigned pair = pairs >> 2U * child & 3U;
-      const bool below = binary_ ? pair == 3 : (inner >> child & 1U) != 0;
-      if (below && depth + (binary_ ? 2 : 1) > kTreeDepth)
-      {
-        throw Error("node " + std::to_string(nodes_) + " has children below depth 16: damaged?");
-      }
-      if (below)
-      {
-        walk(depth + 1);
-      }
-      else if (pair != 0)
-      {
-        ++nodes_;
-      }
-    }
-  }
-
- private:
-  const std::string& bytes_;
-  std::size_t at_;
-  bool binary_;
-  std::size_t value_;  ///< bytes of a node before those of its children
-  std::uint64_t nodes_ = 0;
-};
 }  // namespace
 
 OctomapHeader readOctomapHeader(const std::string& bytes)
@@ -89,8 +38,8 @@ OctomapHeader readOctomapHeader(const std::string& bytes)
   std::string line;
   std::getline(stream, line);
   OctomapHeader header;
-  header.binary = startsWith(line, kBinary);
-  if (!header.binary && !startsWith(line, kFull))
+  header.format.binary = startsWith(line, kBinary);
+  if (!header.format.binary && !startsWith(line, kFull))
   {
     throw Error(std::string("is no OctoMap: its first line must be '") + kBinary + "' or '" +
                 kFull + "' (octomap-tools' convert_octree updates files from before 1.0)");
@@ -113,7 +62,7 @@ OctomapHeader readOctomapHeader(const std::string& bytes)
     }
     else if (key == "res")
     {
-      header.resolution = valueOf<double>(key, value);
+      header.format.resolution = valueOf<double>(key, value);
       has_resolution = true;
     }
   }
@@ -121,33 +70,32 @@ OctomapHeader readOctomapHeader(const std::string& bytes)
   {
     throw Error("header: must have id, size, res and data");
   }
-  header.colour = id == "ColorOcTree" && !header.binary;
+  header.format.colour = id == "ColorOcTree" && !header.format.binary;
   if (id != "OcTree" && id != "ColorOcTree")
   {
     throw Error("header: id = " + id + ", must be OcTree or ColorOcTree");
   }
-  if (!(header.resolution > 0.0) || !std::isfinite(header.resolution))
+  if (!(header.format.resolution > 0.0) || !std::isfinite(header.format.resolution))
   {
     std::ostringstream resolution;
-    resolution << header.resolution;
+    resolution << header.format.resolution;
     throw Error("header: res = " + resolution.str() + ", must be above 0");
   }
   header.data_begin = static_cast<std::size_t>(stream.tellg());
   return header;
 }
 
-void checkOctomapData(const std::string& bytes, const OctomapHeader& header)
+void checkOctomapData(const std::string& data, const OctomapHeader& header)
 {
   if (header.nodes == 0)
   {
     return;
   }
-  TreeWalk walk(bytes, header);
-  walk.walk(0);
-  if (walk.nodes() != header.nodes)
+  const std::uint64_t nodes = countOctomapNodes(data, header.format);
+  if (nodes != header.nodes)
   {
     throw Error("header: size = " + std::to_string(header.nodes) + ", but its tree has " +
-                std::to_string(walk.nodes()) + " nodes: damaged?");
+                std::to_string(nodes) + " nodes: damaged?");
   }
 }
 

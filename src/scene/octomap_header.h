@@ -3,25 +3,23 @@
 #include <cstdint>
 #include <string>
 
+#include "octomap_tree.h"
+
 namespace soft_tissue
 {
 /** What the text before the data of an OctoMap file says. */
 struct OctomapHeader
 {
-  bool binary = false;  ///< occupied or free (.bt), not how likely (.ot)
-  bool colour = false;  ///< nodes have a colour as well
+  OctomapFormat format;
   std::uint64_t nodes = 0;
-  double resolution = 0.0;  ///< edge length of the finest cells, m
   std::size_t data_begin = 0;
 };
 
 /** @throws Error saying what is wrong, without the file's name */
 OctomapHeader readOctomapHeader(const std::string& bytes);
 
-/**
- * Walks the tree as a reader would: liboctomap itself trusts its input, and runs on at its end.
- * @throws Error saying what is wrong, without the file's name
- */
-void checkOctomapData(const std::string& bytes, const OctomapHeader& header);
+/** Counts the nodes of the tree that stands after the header.
+ * @throws Error saying what is wrong, without the file's name */
+void checkOctomapData(const std::string& data, const OctomapHeader& header);
 
 }  // namespace soft_tissue

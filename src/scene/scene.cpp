@@ -46,6 +46,13 @@ void Scene::Impl::resetWorld()
   forgetWay();
 }
 
+void Scene::Impl::restart()
+{
+  report_.step = 0;
+  report_.time_s = 0.0;
+  resetWorld();
+}
+
 /** What was found on the way must not show in what follows. */
 void Scene::Impl::forgetWay()
 {
@@ -59,6 +66,12 @@ void Scene::Impl::forgetWay()
     if (contact.with_tissue != nullptr)
     {
       allow(contact.start_depth_m, contact);
+    }
+    // Where the tissue is now, cells may have come that were not there when the scene was made.
+    if (contact.with_obstacle != nullptr && obstacles_[contact.other].changes)
+    {
+      contact.with_obstacle->allowAll(x_);
+      contact.allowance_m = contact.with_obstacle->easeAllowances(0.0);
     }
   }
 }
@@ -125,6 +138,17 @@ std::uint64_t Scene::Impl::stateHash() const
     hash.addValue(attached.row);
     hash.add(attached.place_P.data(), sizeof(Vec3));
     hash.addValue(attached.stiffness);
+  }
+  for (const Obstacle& obstacle : obstacles_)
+  {
+    hash.add(obstacle.X_WO.data(), 16 * sizeof(double));
+    hash.addValue(obstacle.shape->cells().contents());
+    hash.addValue(obstacle.shape->cells().othersOccupied());
+  }
+  for (const Contact& contact : contacts_)
+  {
+    hash.addValue(contact.allowance_m);
+    contact.term->addTo(hash);
   }
   return hash.value();
 }
@@ -225,6 +249,21 @@ const StepReport& Scene::step()
 void Scene::resetWorld()
 {
   impl_->resetWorld();
+}
+
+void Scene::restart()
+{
+  impl_->restart();
+}
+
+VoxelSet Scene::setObstacleCells(std::size_t obstacle, VoxelSet cells)
+{
+  return impl_->setObstacle(obstacle, std::move(cells), impl_->obstacles_.at(obstacle).X_WO);
+}
+
+VoxelSet Scene::setObstacle(std::size_t obstacle, VoxelSet cells, const Pose& X_WO)
+{
+  return impl_->setObstacle(obstacle, std::move(cells), X_WO);
 }
 
 void Scene::setMotion(std::size_t tissue, const Points& positions, const Points& velocities)

@@ -161,6 +161,11 @@ void Scene::Impl::noteAttachments()
 {
   forgetPast();
   newton_->forgetMatrix();
+  countAttachments();
+}
+
+void Scene::Impl::countAttachments()
+{
   for (Tool& tool : tools_)
   {
     tool.state.attached = 0;

@@ -218,8 +218,7 @@ bool Scene::Impl::stiffenWhereTooDeep()
     {
       continue;
     }
-    const double share =
-        (contact.term->deepest(x_) - contact.allowance_m) / *contact.max_penetration_m;
+    const double share = contact.term->deepestExcess(x_) / *contact.max_penetration_m;
     if (share > 1.0)
     {
       contact.term->setStiffening(contact.term->stiffening() *

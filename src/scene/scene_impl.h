@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/base/series.h"
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/base/timer.h"
 #include "soft_tissue_sim/contact/obstacle_contact.h"
 #include "soft_tissue_sim/contact/tissue_contact.h"
@@ -25,7 +26,8 @@ constexpr double kFailedResidual = 0.05;
 /** The scene itself. Building is in scene_build.cpp, its contacts in
  * scene_pairs.cpp and scene_obstacles.cpp, what they do in scene_contacts.cpp, moving in
  * scene_step.cpp and scene_inertia.cpp, resting in scene_sleep.cpp, tools in scene_tools.cpp, what
- * is tied to them in scene_attachments.cpp, reading out in scene.cpp. */
+ * is tied to them in scene_attachments.cpp, reading out in scene.cpp, saving and loading in
+ * scene_state.cpp, materials anew in scene_material.cpp. */
 class Scene::Impl
 {
  public:
@@ -33,11 +35,17 @@ class Scene::Impl
 
   const StepReport& step();
   void resetWorld();
+  void restart();
   void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
   void setJointTargets(std::size_t tool, const JointValues& values);
   int attach(const AttachRequest& request);
   int detach(std::size_t tool, std::optional<std::size_t> part);
   void refuseDeepStart();
+  VoxelSet setObstacle(std::size_t obstacle, VoxelSet cells, const Pose& X_WO);
+  void setMaterial(std::size_t tissue, const MaterialChange& change);
+  std::uint64_t identity() const;
+  std::string stateBytes();
+  void exchange(StateArchive& archive);
   std::uint64_t stateHash() const;
   void fillSnapshot(Snapshot& snapshot);
 
@@ -72,6 +80,16 @@ class Scene::Impl
   };
   std::vector<Tool, Eigen::aligned_allocator<Tool>> tools_;
 
+  struct Obstacle
+  {
+    std::shared_ptr<VoxelShape> shape;
+    Pose X_WO = Pose::Identity();
+    Box3 shown;            ///< what of it ObstacleInfo has, its own frame
+    bool changes = false;  ///< its cells come from outside
+    ObstacleState state;
+  };
+  std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
+
  private:
   /** What a tissue or membrane adds to the scene, and where its nodes stand among all. */
   struct Tissue
@@ -104,13 +122,6 @@ class Scene::Impl
     Vec3 place_P = Vec3::Zero();  ///< where it is drawn to, part frame, m
     double stiffness = 0.0;       ///< N/m
   };
-  struct Obstacle
-  {
-    std::shared_ptr<VoxelShape> shape;
-    Pose X_WO = Pose::Identity();
-    Box3 shown;  ///< what of it ObstacleInfo has, its own frame
-    ObstacleState state;
-  };
   struct Contact
   {
     std::size_t tissue = 0;  ///< or membrane
@@ -126,7 +137,7 @@ class Scene::Impl
     bool refresh = true;
     std::optional<double> max_penetration_m;
     double start_depth_m = 0.0;  ///< two tissues start in each other by, if that is deep
-    double allowance_m = 0.0;    ///< what of it presses nothing yet
+    double allowance_m = 0.0;    ///< depth that presses nothing yet; of an obstacle the largest
     Points force, last_force;  ///< minus those on nodes of both, at the end of this part of a step
                                ///< and of the last; for bdf2 alone
   };
@@ -154,6 +165,7 @@ class Scene::Impl
   void addToolContacts(const ContactConfig& config, const Contact& named);
   void addTissueContact(const ContactConfig& config, Contact& contact);
   void addObstacleContact(const ContactConfig& config, Contact& contact);
+  void checkObstacle(std::size_t index, const VoxelSet& cells, const Pose& X_WO) const;
   void showObstacles();
   void refuseDeepStart(const Contact& contact);
   void findDeepStarts();
@@ -199,7 +211,7 @@ class Scene::Impl
   void noteAttachments();
   void beginAttachments(double to);
   void collectAttachments();
-  void wake(std::size_t island);
+  void countAttachments();
   void wakeThose(const std::vector<char>& chosen);
   int partsOfStep() const;
   double mostMotion(const Contact& contact) const;
@@ -228,6 +240,7 @@ class Scene::Impl
   bool isDriven(std::size_t tissue) const;
   bool isQuiet(std::size_t tissue) const;
   void wakeUp();
+  void wake(std::size_t island);
   void fallAsleep();
   void setSleepers();
   bool stiffenWhereTooDeep();
@@ -247,12 +260,22 @@ class Scene::Impl
   void forgetWay();
   void finishStep();
   void collectContacts();
+  void takeMaterial(std::size_t tissue);
+  double stiffnessOf(const ContactConfig& config, const Contact& contact) const;
+  void exchangeMaterials(StateArchive& archive);
+  void exchangeStepper(StateArchive& archive);
+  void exchangeTissues(StateArchive& archive);
+  void exchangeTools(StateArchive& archive);
+  void exchangeAttachments(StateArchive& archive);
+  void exchangeObstacles(StateArchive& archive);
+  void exchangeContacts(StateArchive& archive);
+  void exchangeReport(StateArchive& archive);
+  std::vector<EnergyTerm*> allTerms();
 
   std::vector<Tissue> tissues_;
   std::vector<MovedNodes, Eigen::aligned_allocator<MovedNodes>> moved_;
   std::vector<Contact> contacts_;
   std::vector<TissuePairState> pairs_;
-  std::vector<Obstacle, Eigen::aligned_allocator<Obstacle>> obstacles_;
   std::vector<Attachment> attachments_;  ///< by ascending tools, parts and rows
   AnchorSprings anchors_;                ///< the same in this part of a step, but those that sleep
   Points x_, x_rest_, v_;

@@ -13,6 +13,11 @@ namespace
 /** Tissue may start touching an obstacle, but not deeper than this part of half a cell. */
 constexpr double kDeepStart = 0.5;
 
+constexpr int kTreeDepth = 16;
+
+/** All there is, m. */
+const Box3 kEverywhere = {Vec3::Constant(-1e9), Vec3::Constant(1e9)};
+
 bool same(const Box3& a, const Box3& b)
 {
   return a.min == b.min && a.max == b.max;
@@ -23,8 +28,11 @@ void Scene::Impl::addObstacle(std::size_t index)
 {
   const ObstacleConfig& config = config_.obstacles[index];
   Obstacle obstacle;
+  obstacle.changes = config.octomap.file.empty();
   obstacle.shape = std::make_shared<VoxelShape>(
-      readOctomap(config.octomap, item(config_, "obstacles", index) + ".octomap"));
+      obstacle.changes
+          ? VoxelSet(config.octomap.resolution_m * (1 << (kTreeDepth - config.octomap.depth)))
+          : readOctomap(config.octomap, item(config_, "obstacles", index) + ".octomap"));
   obstacle.X_WO = config.pose.toPose();
   obstacle_info_.push_back({config.name, {}, obstacle.shape->cells().cellSize()});
   obstacles_.push_back(std::move(obstacle));
@@ -48,6 +56,74 @@ void Scene::Impl::refuseDeepStart(const Contact& contact)
                 config_.obstacles[contact.other].name + "': tissue '" + tissue.name + "' starts " +
                 std::to_string(1e3 * deepest) +
                 " mm deep inside it, must start outside: set the pose of either");
+  }
+}
+
+/** Lets an obstacle become another between steps: what it takes in is allowed to be there for a
+ * while. */
+VoxelSet Scene::Impl::setObstacle(std::size_t index, VoxelSet cells, const Pose& X_WO)
+{
+  Obstacle& obstacle = obstacles_.at(index);
+  checkObstacle(index, cells, X_WO);
+  const bool moves = X_WO.matrix() != obstacle.X_WO.matrix();
+  const std::optional<Box3> changed_O = obstacle.shape->changes(cells);
+  if (!moves && !changed_O)
+  {
+    return obstacle.shape->exchange(std::move(cells));
+  }
+  const Box3 where = moves ? kEverywhere : transformed(X_WO, *changed_O);
+  const auto forContacts = [&](const auto& visit) {
+    for (Contact& contact : contacts_)
+    {
+      if (contact.with_obstacle != nullptr && contact.other == index)
+      {
+        visit(contact);
+      }
+    }
+  };
+  forContacts([&](Contact& contact) { contact.with_obstacle->beforeChange(x_, where); });
+  cells = obstacle.shape->exchange(std::move(cells));
+  obstacle.X_WO = X_WO;
+  bool any = false;
+  forContacts([&](Contact& contact) {
+    contact.with_obstacle->afterChange(x_, X_WO);
+    contact.allowance_m = contact.with_obstacle->easeAllowances(0.0);
+    const Tissue& tissue = tissues_[contact.tissue];
+    Box3 reach;
+    std::for_each_n(x_.begin() + tissue.first_node, tissue.node_count,
+                    [&](const Vec3& p) { reach.extend(p); });
+    reach.grow(tissue.short_edge);
+    if (asleep_[contact.tissue] != 0 && reach.overlaps(where))
+    {
+      wake(island_[contact.tissue]);
+      any = true;
+    }
+  });
+  if (any)
+  {
+    setSleepers();
+  }
+  newton_->forgetMatrix();
+  obstacle.shown = Box3();
+  showObstacles();
+  return cells;
+}
+
+void Scene::Impl::checkObstacle(std::size_t index, const VoxelSet& cells, const Pose& X_WO) const
+{
+  const std::string name =
+      item(config_, "obstacles", index) + " '" + config_.obstacles[index].name + "'";
+  const double size = obstacles_[index].shape->cells().cellSize();
+  if (cells.cellSize() != size)
+  {
+    throw Error(name + " has cells of " + std::to_string(size) + " m, given are some of " +
+                std::to_string(cells.cellSize()) + " m");
+  }
+  const Mat3 rotation = X_WO.linear();
+  if (!X_WO.matrix().allFinite() || !(rotation.determinant() > 0.0) ||
+      (rotation.transpose() * rotation - Mat3::Identity()).cwiseAbs().maxCoeff() > 1e-9)
+  {
+    throw Error(name + ": a pose to set must be a rotation and a finite translation");
   }
 }
 

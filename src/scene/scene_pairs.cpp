@@ -16,6 +16,9 @@ constexpr double kDeepStart = 0.5;
  * many of them a second. */
 constexpr double kDeepPair = 0.02, kEasing = 1.0;
 
+/** Those that an obstacle took in are pushed out at so many of them, half cells, a second. */
+constexpr double kObstacleEasing = 5.0;
+
 /** The most parts that contact cuts edges of a membrane into. */
 constexpr double kMostCuts = 64.0;
 
@@ -36,7 +39,7 @@ bool refreshes(const FieldConfig& field)
 }
 
 ContactOptions optionsOf(const ContactConfig& config, const FieldConfig& field, bool fine,
-                         double auto_stiffness)
+                         double stiffness)
 {
   ContactOptions options;
   options.law = config.law;
@@ -44,8 +47,7 @@ ContactOptions optionsOf(const ContactConfig& config, const FieldConfig& field, 
       config.response == Response::segment || (config.response == Response::automatic && !fine);
   options.closest_feature = field.depth == DepthKind::closest_feature;
   options.lazy_field = field.refresh == FieldRefresh::lazy;
-  options.stiffness_pa_per_m =
-      config.penalty.value_or(config.stiffness_pa_per_m.value_or(auto_stiffness));
+  options.stiffness_pa_per_m = stiffness;
   options.friction = config.friction;
   options.damping_s_per_m = config.damping_s_per_m;
   return options;
@@ -99,7 +101,7 @@ void Scene::Impl::addToolContacts(const ContactConfig& config, const Contact& na
     auto term = std::make_unique<ToolContact>(
         surfaceFor(contact.size_m, config, contact), shape, fieldOf(contact.tissue),
         optionsOf(config, field, isFine(contact.tissue, contact.size_m),
-                  stiffnessAgainstRigid(contact.tissue, contact.size_m)));
+                  stiffnessOf(config, contact)));
     contact.with_tool = term.get();
     contact.term = std::move(term);
     contacts_.push_back(std::move(contact));
@@ -114,7 +116,7 @@ void Scene::Impl::addObstacleContact(const ContactConfig& config, Contact& conta
   auto term = std::make_unique<ObstacleContact>(
       surfaceFor(contact.size_m, config, contact), obstacle.shape, obstacle.X_WO,
       optionsOf(config, fieldConfigOf(contact.tissue), isFine(contact.tissue, contact.size_m),
-                stiffnessAgainstRigid(contact.tissue, contact.size_m)));
+                stiffnessOf(config, contact)));
   contact.with_obstacle = term.get();
   contact.term = std::move(term);
 }
@@ -126,17 +128,15 @@ void Scene::Impl::addTissueContact(const ContactConfig& config, Contact& contact
   contact.pair = pairs_.size();
   pairs_.push_back({static_cast<Index>(first), static_cast<Index>(second), {}});
   contact.size_m = innerRadiusOf(second);
-  double young_modulus = config_.softBody(second).material.young_modulus_pa;
   if (!tissue_info_[first].isMembrane())
   {
     contact.size_m = std::min(contact.size_m, innerRadiusOf(first));
-    young_modulus = std::min(young_modulus, config_.softBody(first).material.young_modulus_pa);
   }
   const FieldConfig field = fieldConfigOf(tissue_info_[first].isMembrane() ? second : first);
   contact.refresh = refreshes(field);
   const ContactOptions options =
       optionsOf(config, field, isFine(first, contact.size_m) && isFine(second, contact.size_m),
-                kAutoStiffness * young_modulus / contact.size_m);
+                stiffnessOf(config, contact));
   TissueContact::Side a = {surfaceFor(tissues_[second].short_edge, config, contact),
                            fieldOf(first)};
   auto term = first == second ? std::make_unique<TissueContact>(std::move(a), options)
@@ -145,6 +145,26 @@ void Scene::Impl::addTissueContact(const ContactConfig& config, Contact& contact
                                     TissueContact::Side{bodyOf(second), fieldOf(second)}, options);
   contact.with_tissue = term.get();
   contact.term = std::move(term);
+}
+
+/** Of contact as it is configured, or see kAutoStiffness. */
+double Scene::Impl::stiffnessOf(const ContactConfig& config, const Contact& contact) const
+{
+  if (config.penalty || config.stiffness_pa_per_m)
+  {
+    return config.penalty ? *config.penalty : *config.stiffness_pa_per_m;
+  }
+  if (find(tissue_info_, config.other) == tissue_info_.size())
+  {
+    return stiffnessAgainstRigid(contact);
+  }
+  double young_modulus = config_.softBody(contact.other).material.young_modulus_pa;
+  if (!tissue_info_[contact.tissue].isMembrane())
+  {
+    young_modulus =
+        std::min(young_modulus, config_.softBody(contact.tissue).material.young_modulus_pa);
+  }
+  return kAutoStiffness * young_modulus / contact.size_m;
 }
 
 /** Of a tool or obstacle with a soft body, see kAutoStiffness. */
@@ -253,15 +273,23 @@ void Scene::Impl::allow(double depth_m, Contact& contact)
   contact.with_tissue->setAllowance(depth_m);
 }
 
-/** Pushes tissues that started in each other a little farther apart. */
+/** Pushes tissues that started in each other a little farther apart, and out of obstacles. */
 void Scene::Impl::easeDeepStarts()
 {
   for (Contact& contact : contacts_)
   {
-    if (contact.allowance_m > 0.0)
+    if (!(contact.allowance_m > 0.0))
     {
-      const double by = kEasing * contact.size_m * config_.time_step_s;
-      allow(std::max(0.0, contact.allowance_m - by), contact);
+      continue;
+    }
+    const double by = contact.size_m * config_.time_step_s;
+    if (contact.with_obstacle != nullptr)
+    {
+      contact.allowance_m = contact.with_obstacle->easeAllowances(kObstacleEasing * by);
+    }
+    else
+    {
+      allow(std::max(0.0, contact.allowance_m - kEasing * by), contact);
     }
   }
 }

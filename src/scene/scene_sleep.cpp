@@ -73,7 +73,7 @@ bool Scene::Impl::areNear(const Contact& contact) const
     swept.extend(transformed(part.X_WP_goal, part.shape.bounds()));
     return reach.overlaps(swept);
   }
-  return false;  // obstacles stand still
+  return false;  // those of obstacles that change are woken as they do
 }
 
 /** Whether something outside moves a tissue in this step: its key frames, a tool near it or one
@@ -94,6 +94,19 @@ bool Scene::Impl::isDriven(std::size_t k) const
            return contact.tissue == k && contact.with_tool != nullptr &&
                   isMoving(partOf(contact)) && areNear(contact);
          });
+}
+
+/** Wakes an island; setSleepers() has to follow. */
+void Scene::Impl::wake(std::size_t island)
+{
+  for (std::size_t k = 0; k < tissues_.size(); ++k)
+  {
+    if (asleep_[k] != 0 && island_[k] == island)
+    {
+      asleep_[k] = 0;
+      quiet_s_[k] = 0.0;
+    }
+  }
 }
 
 /** Wakes whole islands of tissues that something moves, or that something awake has come near to.
@@ -151,7 +164,8 @@ bool Scene::Impl::isQuiet(std::size_t k) const
   const Tissue& tissue = tissues_[k];
   const SleepConfig& limits = *config_.solver.sleep;
   const bool eases = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& contact) {
-    return contact.allowance_m > 0.0 && (contact.tissue == k || contact.other == k);
+    return contact.allowance_m > 0.0 &&
+           (contact.tissue == k || (contact.with_tissue != nullptr && contact.other == k));
   });
   return !eases && !isDriven(k) &&
          largestNorm(v_.data() + tissue.first_node, tissue.node_count) <= limits.speed_m_per_s &&

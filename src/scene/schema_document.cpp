@@ -15,7 +15,7 @@ namespace
 {
 constexpr std::uintmax_t kLargestFile = 64U << 20U;
 
-std::string readBytes(const std::string& file)
+std::string textOf(const std::string& file)
 {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
@@ -92,7 +92,7 @@ void checkText(const std::string& file, const std::string& bytes)
 
 Document readDocument(const std::string& file, PackageResolver resolver)
 {
-  const std::string bytes = readBytes(file);
+  const std::string bytes = textOf(file);
   checkText(file, bytes);
   Document document;
   document.file = file;

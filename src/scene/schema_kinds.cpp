@@ -104,24 +104,39 @@ void checkLength(const Item& item, std::size_t length, const std::string& what)
   }
 }
 
-Kind<double> number(double low, double high, Ends ends)
+bool Range::holds(double value) const
+{
+  const bool above = ends == Ends::closed ? value >= low : value > low;
+  const bool below = ends == Ends::open ? value < high : value <= high;
+  return above && below;
+}
+
+std::string Range::text() const
+{
+  return std::string("in ") + (ends == Ends::closed ? "[" : "(") + shortest(low) + ", " +
+         shortest(high) + (ends == Ends::open ? ")" : "]");
+}
+
+Kind<double> number(const Range& range)
 {
   Kind<double> kind;
   kind.type = "number";
-  kind.allowed = std::string("in ") + (ends == Ends::closed ? "[" : "(") + shortest(low) + ", " +
-                 shortest(high) + (ends == Ends::open ? ")" : "]");
-  kind.read = [=, allowed = kind.allowed](const Item& item) {
-    const double value = readNumber(item, allowed);
-    const bool above = ends == Ends::closed ? value >= low : value > low;
-    const bool below = ends == Ends::open ? value < high : value <= high;
-    if (!above || !below)
+  kind.allowed = range.text();
+  kind.read = [range](const Item& item) {
+    const double value = readNumber(item, range.text());
+    if (!range.holds(value))
     {
-      item.rejectValue("must be " + allowed);
+      item.rejectValue("must be " + range.text());
     }
     return value;
   };
   kind.show = shortest;
   return kind;
+}
+
+Kind<double> number(double low, double high, Ends ends)
+{
+  return number(Range{low, high, ends});
 }
 
 Kind<int> integer(int low, int high)

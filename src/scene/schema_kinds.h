@@ -36,6 +36,17 @@ std::string shortest(double value);
 /** "a number in (-1, 0.5)" of a type and what of it is allowed. */
 std::string described(const std::string& type, const std::string& allowed);
 
+/** Numbers that are allowed. */
+struct Range
+{
+  double low = 0.0, high = 0.0;
+  Ends ends = Ends::closed;
+
+  bool holds(double value) const;
+  std::string text() const;  ///< "in (-1, 0.5)"
+};
+
+Kind<double> number(const Range& range);
 Kind<double> number(double low, double high, Ends ends);
 Kind<int> integer(int low, int high);
 Kind<bool> boolean();

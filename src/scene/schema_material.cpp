@@ -155,22 +155,22 @@ void checkModel(const Item& item, MaterialModel model, double poisson_ratio,
 
 Kind<double> youngModulus()
 {
-  return number(0.0, 1e12, Ends::open_below);
+  return number(kYoungModulus);
 }
 
 Kind<double> poissonRatio()
 {
-  return number(-1.0, 0.5, Ends::open);
+  return number(kPoissonRatio);
 }
 
 Kind<double> density()
 {
-  return number(0.0, 1e5, Ends::open_below);
+  return number(kDensity);
 }
 
 Kind<double> stiffening()
 {
-  return number(1e-3, 100.0, Ends::closed);
+  return number(kStiffening);
 }
 
 Kind<double> massDamping()

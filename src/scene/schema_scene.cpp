@@ -95,12 +95,27 @@ void checkLaw(const Item& item, ContactConfig& contact)
   }
 }
 
+const Section<OctomapOutputConfig>& octomapOutputSection()
+{
+  static const Section<OctomapOutputConfig> section =
+      Section<OctomapOutputConfig>("octomap output",
+                                   "The tissues as OctoMap cells: occupied where anything of a "
+                                   "tissue or membrane is, free where it was and left.")
+          .required("resolution_m", &OctomapOutputConfig::resolution_m,
+                    number(1e-4, 1.0, Ends::closed), "Edge length of the cells.")
+          .optional("rate_hz", &OctomapOutputConfig::rate_hz, number(0.0, 1e3, Ends::closed),
+                    "Most maps a second; 0: one for every step that is published.");
+  return section;
+}
+
 const Section<OutputsConfig>& outputsSection()
 {
   static const Section<OutputsConfig> section =
       Section<OutputsConfig>("outputs", "What is computed only to be looked at.")
           .optional("stress", &OutputsConfig::stress, boolean(), "Von Mises stress of each tet.")
-          .notAvailable("octomap", "The tissues as occupancy.");
+          .optional("octomap", &OutputsConfig::octomap,
+                    maybe(mapOf(octomapOutputSection()), "none", true),
+                    "The tissues as occupancy, on octomap_full and octomap_binary.");
   return section;
 }
 

@@ -68,6 +68,10 @@ void checkTimes(const Item& item, const char* key, const std::vector<Keyframe>& 
 Kind<std::vector<JointValue>> jointValues();
 
 /** The ranges material constants must lie in, wherever they stand. */
+constexpr Range kYoungModulus = {0.0, 1e12, Ends::open_below};
+constexpr Range kPoissonRatio = {-1.0, 0.5, Ends::open};
+constexpr Range kDensity = {0.0, 1e5, Ends::open_below};
+constexpr Range kStiffening = {1e-3, 100.0, Ends::closed};
 Kind<MaterialModel> materialModel();
 Kind<double> youngModulus();
 Kind<double> poissonRatio();

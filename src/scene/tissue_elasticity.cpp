@@ -120,6 +120,26 @@ void TissueElasticity::restore()
   forViscous([](Part& part) { part.viscosity->setMemory(part.saved); });
 }
 
+void TissueElasticity::remember(const TissueElasticity& other)
+{
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+  {
+    if (parts_[k].viscosity != nullptr)
+    {
+      parts_[k].viscosity->setMemory(other.parts_[k].viscosity->memory());
+    }
+  }
+}
+
+void TissueElasticity::exchange(StateArchive& archive)
+{
+  forViscous([&](Part& part) {
+    std::vector<double> memory = part.viscosity->memory();
+    archive.values(memory);
+    part.viscosity->setMemory(memory);
+  });
+}
+
 void TissueElasticity::addTo(StateHash& hash) const
 {
   for (const Part& part : parts_)

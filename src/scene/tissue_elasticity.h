@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/base/hash.h"
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/energy/viscosity.h"
 
 namespace soft_tissue
@@ -28,6 +29,10 @@ class TissueElasticity
   void save();
   void restore();
   void addTo(StateHash& hash) const;
+  /** Takes over what another one of the same body remembers. */
+  void remember(const TissueElasticity& other);
+  /** Writes, or reads, what it remembers. */
+  void exchange(StateArchive& archive);
 
   void addTerms(std::vector<EnergyTerm*>& terms) const;
 

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "cholesky.h"
 
 namespace soft_tissue
@@ -17,7 +19,8 @@ class Automatic : public LinearSolver
   void setMatrix(const BlockMatrix& a, const Points& x) override
   {
     matrix_ = &a;
-    factors_ = direct_ && a.couplings().empty();
+    factors_ = restored_.value_or(direct_ && a.couplings().empty());
+    restored_.reset();
     (factors_ ? static_cast<LinearSolver&>(cholesky_) : *pcg_).setMatrix(a, x);
   }
 
@@ -39,6 +42,19 @@ class Automatic : public LinearSolver
     cholesky_.forget();
   }
 
+  void exchange(StateArchive& archive) override
+  {
+    bool factors = factors_;
+    archive.value(direct_);
+    archive.value(factors);
+    pcg_->exchange(archive);
+    cholesky_.exchange(archive);
+    if (archive.reading())
+    {
+      restored_ = factors;
+    }
+  }
+
  private:
   bool outweighsFactors(int iterations)
   {
@@ -52,8 +68,9 @@ class Automatic : public LinearSolver
   }
 
   const BlockMatrix* matrix_ = nullptr;
-  bool direct_ = false;   ///< from the next matrix on
-  bool factors_ = false;  ///< this one
+  bool direct_ = false;           ///< from the next matrix on
+  bool factors_ = false;          ///< this one
+  std::optional<bool> restored_;  ///< whether the next one has factors, as it had when it was saved
   Cholesky cholesky_;
   std::unique_ptr<LinearSolver> pcg_ = makePcg();
 };

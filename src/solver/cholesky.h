@@ -23,6 +23,8 @@ class Cholesky : public LinearSolver
   void setMatrix(const BlockMatrix& a, const Points& x) override;
   LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) override;
   void forget() override { iterative_->forget(); }
+  // Which order the unknowns are taken in depends on the matrix alone.
+  void exchange(StateArchive& archive) override { iterative_->exchange(archive); }
 
   /** Multiplications that factoring a matrix of this pattern takes. */
   double workOf(const BlockMatrix& a);

@@ -242,6 +242,16 @@ class Pcg : public LinearSolver
 
   void forget() override { groups_ = RigidGroups(); }
 
+  void exchange(StateArchive& archive) override
+  {
+    groups_.exchange(archive);
+    if (archive.reading())
+    {
+      single_.setGroups(groups_);
+      double_.setGroups(groups_);
+    }
+  }
+
  private:
   const BlockMatrix* matrix_ = nullptr;
   RigidGroups groups_;

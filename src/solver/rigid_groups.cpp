@@ -136,6 +136,19 @@ Mat6 projected(const Mat3& b, const Vec3& arm_i, const Vec3& arm_j)
 }
 }  // namespace
 
+void RigidGroups::exchange(StateArchive& archive)
+{
+  archive.value(usable_);
+  archive.list(offsets_);
+  archive.list(nodes_);
+  archive.list(group_);
+  archive.list(sizes_);
+  archive.list(arms_);
+  archive.list(inverse_);
+  archive.value(coupling_);
+  archive.list(built_at_);
+}
+
 void RigidGroups::makeGroups(const BlockMatrix& a, const Points& x)
 {
   offsets_ = {0};

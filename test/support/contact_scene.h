@@ -77,6 +77,7 @@ class ExhaustiveField : public DistanceField
   }
 
   std::uint64_t evaluations() const override { return 0; }
+  void exchange(StateArchive&) override {}
 
   void marchUntil(const Points& x, const std::vector<Index>& wanted) override
   {

@@ -51,4 +51,15 @@ inline void addMap(SceneConfig& config, const std::string& file, Response respon
   addPair(config, "tissue", "map", response);
 }
 
+/** Adds an obstacle "map" whose cells come from outside, and that the tissue can touch. */
+inline void addLiveMap(SceneConfig& config, double resolution, Response response)
+{
+  ObstacleConfig obstacle;
+  obstacle.name = "map";
+  obstacle.octomap.topic = "octomap_in";
+  obstacle.octomap.resolution_m = resolution;
+  config.obstacles.push_back(obstacle);
+  addPair(config, "tissue", "map", response);
+}
+
 }  // namespace soft_tissue::test

@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "soft_tissue_sim/base/hash.h"
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/contact/contact_law.h"
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/tissue_body.h"
@@ -60,6 +62,8 @@ class ContactTerm : public EnergyTerm
   /** Length of the step that begins next, s; infinite where there is no time. */
   void setStep(double step_s);
 
+  /** Takes another stiffness than that of the options. */
+  void setBaseStiffness(double pa_per_m);
   /** Multiplies the options' stiffness from now on; 1 at first. */
   void setStiffening(double factor);
   double stiffening() const { return stiffening_; }
@@ -68,9 +72,21 @@ class ContactTerm : public EnergyTerm
   const std::vector<ContactSample>& samples(const Points& x);
   /** Largest depth of the samples at x, m. */
   double deepest(const Points& x);
+  /** Largest depth that presses, see ContactSample::excess(), m. */
+  double deepestExcess(const Points& x);
   /** Friction at x, where contacts were when the step began; valid until the next call of any
    * member. */
   const std::vector<FrictionForce>& frictionForces(const Points& x);
+
+  /** Adds what the next step takes over from those before. */
+  virtual void addTo(StateHash& hash) const;
+
+  /**
+   * Writes, or reads, all that later steps and samples at x depend on.
+   * @param x  positions of the nodes, N x 3, m: where the last step ended
+   * @throws Error on reading what does not fit
+   */
+  void exchange(StateArchive& archive, const Points& x);
 
   /** Wall times since the last call. */
   ContactTimes takeTimes();
@@ -86,6 +102,8 @@ class ContactTerm : public EnergyTerm
   virtual void setStiffness(double pa_per_m) = 0;
   /** Has nodal depths marched anew before they are next read. */
   virtual void forgetField() = 0;
+  /** Writes, or reads, what a step began with, and what was found in it. */
+  virtual void exchangePlaces(StateArchive& archive) = 0;
 
   const ContactOptions& options() const { return options_; }
   Friction& friction() { return *friction_; }

@@ -50,6 +50,7 @@ class TissueContact : public ContactTerm
   void collect(std::vector<ContactSample>& samples) override;
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
+  void exchangePlaces(StateArchive& archive) override;
   void forgetField() override;
   void lagFriction(const Points& x, bool refresh);
   void lagPlaces(const Points& x, const Points& towards, bool refresh);

@@ -29,6 +29,9 @@ class TissueDepth
    * finite. */
   void prepare(const Points& x);
 
+  /** Writes, or reads, what of earlier positions later answers depend on. */
+  void exchange(StateArchive& archive);
+
   /**
    * Sets position, depth, gradient, nodes and coefficients of a sample at p.
    * @param p       point in `tet`, m, world
@@ -69,6 +72,7 @@ class TissueDepth
   Adjacency tet_triangles_;  ///< rows: tets; boundary triangles of each
   TriangleTree tree_;        ///< over the boundary where it was at tree_nodes_
   Points tree_nodes_;        ///< by place in BoundarySurface::nodes, m
+  Points built_nodes_;       ///< the same where it was built
   double moved_ = 0.0;       ///< how far boundary nodes are from there at most, m
 };
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/mesh/topology.h"
 
 namespace soft_tissue
@@ -53,6 +54,15 @@ class OuterProducts
     return vectors_.data() + 3 * static_cast<std::size_t>(place);
   }
   std::vector<double>& weights() { return weights_; }
+
+  /** Writes, or reads, all. */
+  void exchange(StateArchive& archive)
+  {
+    archive.list(offsets_);
+    archive.list(nodes_);
+    archive.list(vectors_);
+    archive.list(weights_);
+  }
   const std::vector<double>& weights() const { return weights_; }
 
  private:

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/mesh/topology.h"
 
 namespace soft_tissue
@@ -40,6 +41,9 @@ class DistanceField
 
   /** Distances from a point to a boundary feature worked out so far, all marches together. */
   virtual std::uint64_t evaluations() const = 0;
+
+  /** Writes, or reads, what later marches and readers depend on. */
+  virtual void exchange(StateArchive& archive) = 0;
 };
 
 /** What single methods need beside the topology. */

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/base/types.h"
 #include "soft_tissue_sim/geometry/box3.h"
 
@@ -56,6 +58,20 @@ class VoxelSet
   /** Occupancy of all cells of a box, x running fastest, as 0 or 1. */
   void read(const CellBox& box, std::vector<std::uint8_t>& occupied) const;
 
+  /** What cells are that nothing was said of. */
+  bool othersOccupied() const { return others_occupied_; }
+
+  /** Hash of which cells differ from those that nothing was said of: it does not depend on the way
+   * they came to. */
+  std::uint64_t contents() const { return contents_; }
+
+  /** Box around the cells of a box that are not as in another set. */
+  CellBox difference(const VoxelSet& other, const CellBox& box) const;
+
+  /** Calls visit(cell) for each cell that differs from those that nothing was said of, brick by
+   * brick, bricks by ascending z, y and x. */
+  void forEachOther(const std::function<void(const Cell&)>& visit) const;
+
   /** Whether a box may have both kinds of cells. */
   bool mixed(const CellBox& box) const;
 
@@ -64,6 +80,9 @@ class VoxelSet
 
   Cell cellOf(const Vec3& p) const;
 
+  /** Writes, or reads, all cells. @throws Error on reading those of another size */
+  void exchange(StateArchive& archive);
+
   /** Memory of the bricks, bytes. */
   std::size_t bytes() const;
 
@@ -71,11 +90,13 @@ class VoxelSet
   static constexpr int kSide = 8;
   using Brick = std::array<std::uint64_t, kSide>;  ///< a bit set: unlike cells nothing was said of
 
+  std::vector<std::uint64_t> sortedKeys() const;
   const Brick* brickAt(const Cell& brick) const;
 
   double cell_size_;
   bool others_occupied_;
   CellBox bounds_;
+  std::uint64_t contents_ = 0;
   std::unordered_map<std::uint64_t, Brick> bricks_;
 };
 

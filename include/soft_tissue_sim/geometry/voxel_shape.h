@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "soft_tissue_sim/geometry/rigid_shape.h"
@@ -40,8 +41,23 @@ class VoxelShape : public RigidShape
   /** Whether a covered piece of the surface may be in a box, shape frame. */
   bool touches(const Box3& box) const;
 
-  /** Sets the cells of a box and makes anew those patches that this changes. */
-  void change(const CellBox& box, bool occupied);
+  /**
+   * A box, m, shape frame, out of which its surface would stay the same with other cells; none: all
+   * of it would. Of what there is it looks at what is covered alone, however large the map.
+   */
+  std::optional<Box3> changes(const VoxelSet& cells) const;
+
+  /**
+   * Takes other cells and makes anew the covered patches that this changes.
+   * @return those there were
+   * @throws Error for cells of another size
+   */
+  VoxelSet exchange(VoxelSet cells);
+
+  /** What is covered, in patches. */
+  const CellBox& coveredPatches() const { return covered_; }
+  /** Takes other cells of the same size, and covers these patches and no others. */
+  void remake(VoxelSet cells, const CellBox& patches);
 
   /**
    * Exact wherever the nearest surface is covered. Where no surface is, infinite in the open, and
@@ -61,6 +77,9 @@ class VoxelShape : public RigidShape
   struct Patch;
   struct Nearest;
   void build(const CellBox& patches);
+  void addPatch(const Cell& at);
+  void finishPatches();
+  std::vector<Cell> stalePatches(const VoxelSet& cells) const;
   Nearest nearest(const Vec3& p) const;
 
   VoxelSet cells_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "soft_tissue_sim/node/joint_inputs.h"
+#include "soft_tissue_sim/node/map_input.h"
 #include "soft_tissue_sim/node/marker_input.h"
 #include "soft_tissue_sim/node/node_params.h"
 #include "soft_tissue_sim/node/physics_loop.h"
@@ -17,21 +18,23 @@
 
 namespace soft_tissue_sim
 {
-/** All that moves tools from outside, as the scene names it: one source for each tool's pose, one
- * for its joints and one for its jaw. */
+/** All that comes from outside: maps of obstacles, and what moves tools, as the scene names it: one
+ * source for each tool's pose, one for its joints and one for its jaw. */
 class Inputs
 {
  public:
   /**
-   * @param info  of the loop's scene; must outlive this
+   * @param info       of the loop's scene; must outlive this
+   * @param obstacles  the scene's: the maps of some come on topics
    * @throws soft_tissue::Error for a tool that follows its own or another tool's frame
    */
   Inputs(const ros::NodeHandle& node, const NodeParams& params, const SceneInfo& info,
-         PhysicsLoop& loop);
+         const std::vector<soft_tissue::ObstacleConfig>& obstacles, PhysicsLoop& loop);
   ~Inputs();
 
   /** What becomes of each stream of commands. */
   std::vector<const CommandWatch*> watches() const;
+  const std::deque<MapInput>& maps() const { return maps_; }
 
   /** Notes a finished step. */
   void note(const Frame& frame);
@@ -60,6 +63,7 @@ class Inputs
   std::deque<JointInput> joints_;
   std::deque<JawInput> jaws_;
   std::deque<JointTfInput> joint_frames_;
+  std::deque<MapInput> maps_;
   ros::WallTimer timer_;
 };
 

@@ -20,6 +20,7 @@
 #include "soft_tissue_sim/node/real_time_meter.h"
 #include "soft_tissue_sim/node/step_schedule.h"
 #include "soft_tissue_sim/node/twist_command.h"
+#include "soft_tissue_sim/scene/material_change.h"
 #include "soft_tissue_sim/scene/scene.h"
 
 namespace soft_tissue_sim
@@ -81,7 +82,6 @@ class PhysicsLoop
 
   /** Tells where a tool shall be; `sent_s` is as in CommandStream::put(). From any thread. */
   void command(std::size_t tool, const soft_tissue::Pose& X_WT, std::optional<double> sent_s);
-
   void commandTwist(std::size_t tool, const Twist& twist);
   /** Values of those joints that are not the jaw's; NaN: as they are. */
   void commandJoints(std::size_t tool, const soft_tissue::JointValues& values,
@@ -89,6 +89,10 @@ class PhysicsLoop
   /** The same of the jaw's joints. */
   void commandJaw(std::size_t tool, const soft_tissue::JointValues& values,
                   std::optional<double> sent_s);
+  /** Gives an obstacle other cells, and a pose, before the next step; of several the newest counts.
+   * From any thread, which then lets go of cells there were. */
+  void setObstacle(std::size_t obstacle, soft_tissue::VoxelSet cells,
+                   const soft_tissue::Pose& X_WO);
 
   void setPaused(bool paused);
   /** Steps a paused loop; waits for the last one. @return simulated time, empty if it is not paused
@@ -96,10 +100,25 @@ class PhysicsLoop
   std::optional<double> step(std::uint32_t steps);
   /** Rest shape and initial tool poses; commands given before are forgotten; time goes on. */
   void resetWorld();
+  /** The same, and time begins again at zero. */
+  void resetSimulation();
   /** Scene::attach(). @throws soft_tissue::Error as that does */
   int attach(const soft_tissue::AttachRequest& request);
   /** Scene::detach(). @throws soft_tissue::Error as that does */
   int detach(std::size_t tool, std::optional<std::size_t> part);
+  /** Where the simulation stood when something was done to it. */
+  struct Moment
+  {
+    std::uint64_t step = 0;
+    double time_s = 0.0;
+    std::uint64_t state_hash = 0;
+  };
+  /** @throws soft_tissue::Error as Scene::saveState() */
+  Moment saveState(const std::string& file);
+  /** Commands given before are forgotten. @throws soft_tissue::Error as Scene::loadState() */
+  Moment loadState(const std::string& file);
+  /** @throws soft_tissue::Error as Scene::setMaterial() */
+  void setMaterial(std::size_t tissue, const soft_tissue::MaterialChange& change);
 
   LatestExchange<Frame>& frames() { return frames_; }
   const LoopCounters& counters() const { return counters_; }
@@ -108,7 +127,11 @@ class PhysicsLoop
   void run();
   void runTasks();
   void waitForTask(double seconds);
-  void execute(std::function<void()> task);
+  bool execute(std::function<void()> task);
+  void demand(std::function<void()> task);
+  void takeMap(std::size_t obstacle);
+  void forgetCommands();
+  Moment now();
   bool stepIfDue();
   bool clockHasStarted();
   void aimTools(bool at_once);
@@ -129,6 +152,17 @@ class PhysicsLoop
   RealTimeMeter meter_;
   std::uint64_t resets_ = 0;
   ros::Time stamp_;
+
+  /** Cells on their way to the scene, and those that come back. */
+  struct Map
+  {
+    soft_tissue::VoxelSet cells;
+    soft_tissue::Pose X_WO;
+  };
+  std::mutex map_mutex_;
+  std::vector<std::shared_ptr<Map>> maps_;  ///< per obstacle, null: none
+  std::vector<soft_tissue::VoxelSet> spent_;
+  soft_tissue::Snapshot asked_;  ///< of now()
 
   LatestExchange<Frame> frames_;
   LoopCounters counters_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 
@@ -15,6 +16,13 @@ struct Replay
   soft_tissue::SceneConfig config;
   BagPoses poses;  ///< no tools if there is no bag
   std::uint64_t steps = 0;
+  bool from_now = false;  ///< so many more, wherever the scene is; else counted from its start
+
+  /** Number of the last step of a scene that has taken so many. */
+  std::uint64_t lastStep(std::uint64_t done) const
+  {
+    return from_now ? done + steps : std::max(done, steps);
+  }
 };
 
 /**
@@ -24,7 +32,8 @@ struct Replay
  */
 Replay readReplay(const RunOptions& options);
 
-/** Takes a scene through it. @param seen  is called after each step; whether to go on */
+/** Takes a scene through it, from where it is. @param seen  is called after each step; whether to
+ * go on */
 void runReplay(soft_tissue::Scene& scene, const Replay& replay,
                const std::function<bool(const soft_tissue::Snapshot&)>& seen);
 

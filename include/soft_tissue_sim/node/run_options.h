@@ -26,6 +26,8 @@ struct RunOptions
   std::string compare;                ///< CSV file; empty: nothing is compared
   std::optional<double> tare_s;       ///< of the bag's forces, whose mean is taken off
   std::vector<std::string> identify;  ///< SceneParameter names; empty: the scene is run once
+  std::string load_state;             ///< file to go on from; empty: from the start
+  std::string save_state;             ///< file to end with; empty: none
   std::string world_frame = "world";
   double state_rate_hz = 30.0;  ///< most tissue states a simulated second in the bag; 0: every step
   int threads = 0;              ///< 0: one per processor

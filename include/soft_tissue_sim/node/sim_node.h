@@ -12,6 +12,7 @@
 #include "soft_tissue_sim/node/frame_publisher.h"
 #include "soft_tissue_sim/node/inputs.h"
 #include "soft_tissue_sim/node/node_params.h"
+#include "soft_tissue_sim/node/octomap_topics.h"
 #include "soft_tissue_sim/node/sim_services.h"
 #include "soft_tissue_sim/node/tissue_topics.h"
 #include "soft_tissue_sim/node/tool_topics.h"
@@ -48,6 +49,7 @@ class SimNode
   TissueDepths depths_;  ///< used by the publishing thread only, once it runs
   FramePublisher publisher_;
   std::unique_ptr<SceneTopics> scene_topics_;
+  std::unique_ptr<OctomapTopics> octomap_topics_;
   std::deque<TissueTopics> tissue_topics_;
   std::deque<ToolTopics> tool_topics_;
   std::unique_ptr<Diagnostics> diagnostics_;

@@ -4,18 +4,26 @@
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 #include <ros/spinner.h>
+#include <soft_tissue_sim/LoadState.h>
+#include <soft_tissue_sim/SaveState.h>
+#include <soft_tissue_sim/SetMaterial.h>
 #include <soft_tissue_sim/Step.h>
 #include <std_srvs/Empty.h>
 
 #include "soft_tissue_sim/node/physics_loop.h"
+#include "soft_tissue_sim/node/scene_info.h"
 
 namespace soft_tissue_sim
 {
-/** `pause_physics`, `unpause_physics`, `step`, `reset_world`, answered one after the other. */
+/** Services that act on the physics as a whole, answered one after the other: `pause_physics`,
+ * `unpause_physics`, `step`, `reset_world`, `reset_simulation`, `save_state`, `load_state` and
+ * `set_material`. */
 class SimServices
 {
  public:
-  SimServices(const ros::NodeHandle& node, PhysicsLoop& loop);
+  /** @param owns_clock  only then time can begin again: there is `reset_simulation` */
+  SimServices(const ros::NodeHandle& node, const SceneInfo& info, bool owns_clock,
+              PhysicsLoop& loop);
 
  private:
   bool pause(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
@@ -23,6 +31,12 @@ class SimServices
   bool step(Step::Request& request, Step::Response& response);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
+  bool resetSimulation(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+  bool save(SaveState::Request& request, SaveState::Response& response);
+  bool load(LoadState::Request& request, LoadState::Response& response);
+  bool setMaterial(SetMaterial::Request& request, SetMaterial::Response& response);
+
+  const SceneInfo& info_;
   PhysicsLoop& loop_;
   ros::CallbackQueue queue_;  ///< its own: a long step holds no command up
   ros::NodeHandle node_;

@@ -110,10 +110,12 @@ struct MembraneConfig : SoftBodyConfig
   double thickness_m = 0.0;
 };
 
-/** Cells of an OctoMap that stand still in the world. */
+/** Cells of an OctoMap. */
 struct OctomapConfig
 {
-  std::string file;               ///< absolute path
+  std::string file;               ///< absolute path; empty where there is a topic
+  std::string topic;              ///< of maps that replace each other
+  double resolution_m = 0.0;      ///< edge length of their finest cells; of a topic alone
   int depth = 16;                 ///< of the octree: 16 are the map's finest cells
   bool unknown_occupied = false;  ///< what the map says nothing of, in it and around it
 };
@@ -182,9 +184,17 @@ struct SolverConfig
   std::optional<SleepConfig> sleep;  ///< empty: never
 };
 
+/** The tissues as cells of an OctoMap. */
+struct OctomapOutputConfig
+{
+  double resolution_m = 0.0;  ///< edge length of the cells
+  double rate_hz = 2.0;       ///< most maps a second; 0: one for every step that is published
+};
+
 struct OutputsConfig
 {
   bool stress = false;
+  std::optional<OctomapOutputConfig> octomap;  ///< empty: none
 };
 
 struct SceneConfig

@@ -8,6 +8,7 @@
 
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/base/types.h"
+#include "soft_tissue_sim/geometry/voxel_set.h"
 #include "soft_tissue_sim/mesh/topology.h"
 #include "soft_tissue_sim/scene/config.h"
 
@@ -169,6 +170,8 @@ struct Snapshot
   std::vector<TissuePairState> tissue_pairs;  ///< as the scene file names them
 };
 
+struct MaterialChange;
+
 /** Bodies, tools and the one potential they move in. Not thread safe: one thread owns it. */
 class Scene
 {
@@ -187,7 +190,7 @@ class Scene
   /** Tissues, and after them membranes. */
   const std::vector<TissueInfo>& tissues() const;
   const std::vector<ToolInfo>& tools() const;
-  /** Their surfaces grow in steps that take tissue to new places. */
+  /** Their surfaces grow in steps that take tissue to new places, and change with their cells. */
   const std::vector<ObstacleInfo>& obstacles() const;
 
   /** Where a tool is now. */
@@ -224,6 +227,26 @@ class Scene
 
   /** Rest shape, zero velocity, tools at their initial poses; time goes on. */
   void resetWorld();
+  /** The same, and time and the steps' number begin again at zero. Maps stay. */
+  void restart();
+
+  /**
+   * Writes all that steps to come depend on to a file, in full precision: they have the same bits
+   * after loadState() as without, in another process as well.
+   * @throws Error if the file can't be written
+   */
+  void saveState(const std::string& file) const;
+  /**
+   * Goes on where a scene of the same configuration was when it was saved; what the times of steps
+   * decide in a scene with SolverConfig::budget_ms aside.
+   * @throws Error for a file that is none, is damaged, or of another scene or version; then nothing
+   * has changed
+   */
+  void loadState(const std::string& file);
+
+  /** Gives a tissue or membrane another material from now on. @throws Error naming what is out of
+   * range; then nothing has changed */
+  void setMaterial(std::size_t tissue, const MaterialChange& change);
 
   /**
    * Puts all nodes of a tissue or membrane where they are told to be and gives them velocities,
@@ -234,9 +257,22 @@ class Scene
    */
   void setMotion(std::size_t tissue, const Points& positions, const Points& velocities);
 
+  /**
+   * Gives an obstacle other cells. Tissue they take in is pushed out slowly, and what sleeps near
+   * them wakes up. What that costs depends on the cells that changed near tissue.
+   * @param cells  of the size of those there are, in the obstacle's frame
+   * @return those there were: letting go of a large map takes time
+   * @throws Error for cells of another size
+   */
+  VoxelSet setObstacleCells(std::size_t obstacle, VoxelSet cells);
+  /** The same, and puts it elsewhere. @throws Error for a pose that is not a rotation and a finite
+   * translation, too */
+  VoxelSet setObstacle(std::size_t obstacle, VoxelSet cells, const Pose& X_WO);
+
   /** Hash of every bit of the dynamic state: positions, velocities, accelerations, what the stepper
-   * carries on and viscous tissue remembers, who sleeps, tool poses, joints and what is tied to
-   * them, step count. */
+   * carries on and viscous tissue remembers, who sleeps, what contacts carry on (friction's slips,
+   * depths that are allowed for now, stiffening), tool poses, joints and what is tied to them,
+   * cells of obstacles, step count. */
   std::uint64_t stateHash() const;
 
   /** Copies the state out, reusing the memory `snapshot` already has. */

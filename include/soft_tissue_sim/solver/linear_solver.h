@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/energy/block_matrix.h"
 
 namespace soft_tissue
@@ -43,6 +44,10 @@ class LinearSolver
 
   /** Forgets all that matrices before have taught it: what comes has the bits it has at first. */
   virtual void forget() = 0;
+
+  /** Writes, or reads, what of earlier matrices the next solves depend on; the matrix itself is
+   * set after that. */
+  virtual void exchange(StateArchive& archive) = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();

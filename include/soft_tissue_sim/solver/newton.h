@@ -88,6 +88,12 @@ class NewtonSolver
     linear_->forget();
   }
 
+  /**
+   * Writes, or reads, what the next minimisation takes over: second derivatives that serve on.
+   * @param terms  all that were or may be minimised, in an order that stays
+   */
+  void exchange(StateArchive& archive, const std::vector<EnergyTerm*>& terms);
+
   /** Copies the positions of fixed nodes from one state to another. */
   void restoreFixed(const Points& from, Points& to) const;
 
@@ -122,6 +128,7 @@ class NewtonSolver
   bool matrix_serves_ = false;  ///< hessian_ is still good enough for a direction
   bool matrix_leads_ = false;   ///< not quite, but it brought the last iteration forward
   std::vector<EnergyTerm*> matrix_terms_;
+  Points matrix_at_;            ///< where nodes were when hessian_ was made
   double indefinite_at_ = 0.0;  ///< the residual where exact curvature last failed
   /** Farthest move of a node over the norm of the forces, of the last solve, m/N. */
   double reach_ = std::nan("");

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "soft_tissue_sim/base/state_archive.h"
 #include "soft_tissue_sim/energy/block_matrix.h"
 
 namespace soft_tissue
@@ -24,6 +25,9 @@ class RigidGroups
   /** Whether nodes have moved so far since build() that other motions are rigid now, or bodies are
    * coupled quite otherwise. */
   bool outdated(const BlockMatrix& a, const Points& x) const;
+
+  /** Writes, or reads, the groups and the level that there are. */
+  void exchange(StateArchive& archive);
 
   int size() const { return static_cast<int>(offsets_.size()) - 1; }  ///< groups; 0 without level
   /** Nodes of group g: nodes()[offsets()[g]] ... nodes()[offsets()[g + 1] - 1]. */

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "soft_tissue_sim/base/error.h"
+#include "support/voxel_samples.h"
 
 namespace soft_tissue
 {
@@ -90,6 +91,48 @@ TEST(VoxelSet, RefusesSizesAndIndicesWithoutMeaning)
   }
   VoxelSet cells(1.0);
   EXPECT_THROW(cells.set({1 << 20, 0, 0}, true), Error);
+}
+
+// However they came to it, sets of the same cells have the same contents, and others do not.
+TEST(VoxelSet, ContentsTellSetsApart)
+{
+  const CellBox box = {Cell(-9, -3, -12), Cell(7, 5, 4)};
+  const VoxelSet cells = test::randomVoxels(21, box, 0.5);
+  VoxelSet other(1.0);
+  other.fill(box, true);
+  for (int z = box.high.z() - 1; z >= box.low.z(); --z)
+  {
+    for (int y = box.low.y(); y < box.high.y(); ++y)
+    {
+      for (int x = box.low.x(); x < box.high.x(); ++x)
+      {
+        if (!cells.occupied({x, y, z}))
+        {
+          other.set({x, y, z}, false);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(cells.contents(), other.contents());
+  EXPECT_TRUE(cells.difference(other, box).empty());
+  std::set<std::uint64_t> seen = {cells.contents()};
+  for (int x = box.low.x(); x < box.high.x(); ++x)
+  {
+    VoxelSet one = cells;
+    one.set({x, 1, 1}, !cells.occupied({x, 1, 1}));
+    EXPECT_TRUE(seen.insert(one.contents()).second);
+    EXPECT_EQ(one.difference(cells, box).low, Cell(x, 1, 1));
+    EXPECT_EQ(one.difference(cells, box).high, Cell(x + 1, 2, 2));
+  }
+}
+
+TEST(VoxelSet, DiffersWhereTheOthersAreOccupied)
+{
+  VoxelSet free(1.0), solid(1.0, true);
+  free.fill({Cell::Zero(), Cell::Constant(3)}, true);
+  const CellBox box = {Cell::Constant(-2), Cell::Constant(5)};
+  EXPECT_EQ(free.difference(solid, box).low, box.low);
+  EXPECT_TRUE(free.difference(solid, {Cell::Zero(), Cell::Constant(3)}).empty());
 }
 
 }  // namespace

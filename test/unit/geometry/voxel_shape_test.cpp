@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "soft_tissue_sim/base/error.h"
 #include "support/voxel_samples.h"
 
 namespace soft_tissue
@@ -186,9 +187,14 @@ TEST(VoxelShape, AfterAChangeIsWhatItWouldHaveBeenMadeAs)
   const VoxelSet cells = randomVoxels(17, all, 0.3);
   const CellBox box = {Cell(-2, 1, -4), Cell(3, 4, 1)};
   VoxelShape changed = wholeShape(cells);
-  changed.change(box, true);
   VoxelSet filled = cells;
   filled.fill(box, true);
+  EXPECT_FALSE(changed.changes(cells));
+  const std::optional<Box3> where = changed.changes(filled);
+  ASSERT_TRUE(where);
+  EXPECT_TRUE(where->contains(Vec3(-2.0, 1.0, -4.0)) && where->contains(Vec3(3.0, 4.0, 1.0)));
+  EXPECT_EQ(changed.exchange(filled).contents(), cells.contents());
+  EXPECT_EQ(changed.cells().contents(), filled.contents());
   const VoxelShape made = wholeShape(filled);
   RandomGeometry random(18);
   for (int trial = 0; trial < 1000; ++trial)
@@ -196,6 +202,63 @@ TEST(VoxelShape, AfterAChangeIsWhatItWouldHaveBeenMadeAs)
     const Vec3 p = random.point(trial % 2 == 0 ? 8.0 : 20.0);
     EXPECT_TRUE(sameBits(changed.distance(p), made.distance(p))) << p.transpose();
   }
+}
+
+// Cells at every distance from patches' borders, and worlds that differ in what is around maps.
+TEST(VoxelShape, AfterManyExchangesIsWhatItWouldHaveBeenMadeAs)
+{
+  const CellBox all = {Cell::Constant(-20), Cell::Constant(20)};
+  VoxelShape changed = wholeShape(randomVoxels(19, all, 0.2));
+  RandomGeometry random(20);
+  for (int round = 0; round < 12; ++round)
+  {
+    VoxelSet other = round % 4 == 3 ? VoxelSet(1.0, true) : changed.cells();
+    const int x = int(random.uniform(-20.0, 17.0)), z = int(random.uniform(-20.0, 17.0));
+    other.fill({Cell(x, 15 - round, z), Cell(x + 3, 16, z + 1)}, round % 2 == 0);
+    changed.exchange(other);
+    VoxelShape made{VoxelSet(1.0)};
+    made.remake(other, changed.coveredPatches());
+    for (int trial = 0; trial < 200; ++trial)
+    {
+      const Vec3 p = random.point(20.0);
+      EXPECT_TRUE(sameBits(changed.distance(p), made.distance(p)))
+          << round << ": " << p.transpose();
+    }
+  }
+}
+
+TEST(VoxelShape, FarChangesChangeNothingThatIsCovered)
+{
+  VoxelSet cells(1.0);
+  cells.fill({Cell(0, 0, 0), Cell(200, 200, 2)}, true);
+  VoxelShape shape(cells);
+  shape.cover({Vec3(1.0, 1.0, 0.0), Vec3(10.0, 10.0, 4.0)});
+  cells.set({199, 0, 9}, true);
+  shape.exchange(cells);
+  cells.fill({Cell(100, 100, 2), Cell(150, 150, 9)}, true);
+  EXPECT_FALSE(shape.changes(cells));
+  shape.exchange(cells);
+  shape.cover({Vec3(110.0, 110.0, 0.0), Vec3(115.0, 115.0, 9.0)});
+  EXPECT_NEAR(shape.distance({125.0, 125.0, 10.0}).distance, 1.0, 1e-12);
+}
+
+TEST(VoxelShape, SaysWhereCellsOfALargerMapAre)
+{
+  VoxelShape shape(VoxelSet(0.5));
+  VoxelSet cells(0.5);
+  EXPECT_FALSE(shape.changes(cells));
+  cells.fill({Cell(2, 2, 2), Cell(4, 6, 8)}, true);
+  const std::optional<Box3> where = shape.changes(cells);
+  ASSERT_TRUE(where);
+  EXPECT_EQ(where->min, Vec3(1.0, 1.0, 1.0));
+  EXPECT_EQ(where->max, Vec3(2.0, 3.0, 4.0));
+  EXPECT_TRUE(shape.changes(VoxelSet(0.5, true)));
+}
+
+TEST(VoxelShape, RefusesCellsOfAnotherSize)
+{
+  VoxelShape shape(VoxelSet(1.0));
+  EXPECT_THROW(shape.exchange(VoxelSet(0.5)), Error);
 }
 
 TEST(VoxelShape, KnowsInsideFromOutsideWhereNothingIsCovered)

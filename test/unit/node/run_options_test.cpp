@@ -9,16 +9,19 @@ namespace
 TEST(RunOptions, readsEveryOption)
 {
   const RunOptions options =
-      parseRunOptions({"a.yaml",    "--duration",   "2.5",    "--bag-in",   "i.bag",  "--bag-out",
-                       "o.bag",     "--csv",        "c.csv",  "--json",     "j.json", "--threads",
-                       "3",         "--state-rate", "0",      "--frame-id", "base",   "--quiet",
-                       "--compare", "f.csv",        "--tare", "0.5"});
+      parseRunOptions({"a.yaml", "--duration",   "2.5",   "--bag-in",  "i.bag",     "--bag-out",
+                       "o.bag",  "--csv",        "c.csv", "--json",    "j.json",    "--load-state",
+                       "l",      "--save-state", "s",     "--threads", "3",         "--state-rate",
+                       "0",      "--frame-id",   "base",  "--quiet",   "--compare", "f.csv",
+                       "--tare", "0.5"});
   EXPECT_EQ(options.scene, "a.yaml");
   EXPECT_EQ(options.duration_s, 2.5);
   EXPECT_EQ(options.bag_in, "i.bag");
   EXPECT_EQ(options.bag_out, "o.bag");
   EXPECT_EQ(options.csv, "c.csv");
   EXPECT_EQ(options.json, "j.json");
+  EXPECT_EQ(options.load_state, "l");
+  EXPECT_EQ(options.save_state, "s");
   EXPECT_EQ(options.threads, 3);
   EXPECT_EQ(options.state_rate_hz, 0.0);
   EXPECT_EQ(options.world_frame, "base");

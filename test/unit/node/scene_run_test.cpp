@@ -6,6 +6,7 @@
 #include <rosbag/view.h>
 #include <soft_tissue_sim/SimStats.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "soft_tissue_sim/base/error.h"
@@ -77,6 +78,29 @@ TEST_F(SceneRun, anOutputBagServesAsInput)
             static_cast<std::uint32_t>(kPressedSteps - 1));  // from the first pose to the last
 }
 
+TEST_F(SceneRun, twoRunsHaveTheBitsOfOne)
+{
+  const std::string state = pressed_.path("state");
+  const RunOptions whole = options("whole");
+  runScene(whole);
+  RunOptions first = options("first");
+  first.duration_s = 0.17;
+  first.save_state = state;
+  runScene(first);
+  RunOptions second = options("second");
+  second.load_state = state;
+  second.save_state = state;
+  runScene(second);
+  const std::string lines = contents(whole.csv), head = contents(first.csv);
+  const std::string tail = contents(second.csv);
+  const std::string titles = tail.substr(0, tail.find('\n') + 1);
+  EXPECT_EQ(head + tail.substr(titles.size()), lines);
+  second.duration_s = 0.05;  // beyond the last key frame
+  runScene(second);
+  const std::string more = contents(second.csv);
+  EXPECT_EQ(std::count(more.begin(), more.end(), '\n'), 6);
+}
+
 TEST_F(SceneRun, refusesWhatCannotBeWrittenOrHasNoEnd)
 {
   RunOptions run = options("run");
@@ -87,6 +111,12 @@ TEST_F(SceneRun, refusesWhatCannotBeWrittenOrHasNoEnd)
   EXPECT_THROW(runScene(run), soft_tissue::Error);
   run = options("run");
   run.json = "/nowhere/run.json";
+  EXPECT_THROW(runScene(run), soft_tissue::Error);
+  run = options("run");
+  run.save_state = "/nowhere/state";
+  EXPECT_THROW(runScene(run), soft_tissue::Error);
+  run = options("run");
+  run.load_state = scene();
   EXPECT_THROW(runScene(run), soft_tissue::Error);
   run = options("run");
   run.scene = SOURCE_DIR "/test/ros/block.yaml";  // moved by commands only

@@ -37,6 +37,25 @@ std::vector<BadScene> badNames()
       {"outputs:",
        "obstacles: [{name: table, octomap: {file: mesh.msh, unknown: maybe}}]\noutputs:",
        "obstacles[0].octomap.unknown = maybe, must be one of free, occupied"},
+      {"outputs:", "obstacles: [{name: table, octomap: {topic: octomap_in}}]\noutputs:",
+       "obstacles[0].octomap.resolution_m: missing, must be given with topic"},
+      {"outputs:",
+       "obstacles: [{name: table, octomap: {topic: octomap_in, resolution_m: 0}}]\noutputs:",
+       "obstacles[0].octomap.resolution_m = 0, must be in (0, 10]"},
+      {"outputs:",
+       "obstacles: [{name: table, octomap: {topic: /a b, resolution_m: 0.01}}]\noutputs:",
+       "obstacles[0].octomap.topic = /a b, must be a relative topic name: names joined by /"},
+      {"outputs:",
+       "obstacles: [{name: table, octomap: {file: mesh.msh, resolution_m: 0.01}}]\noutputs:",
+       "obstacles[0].octomap.resolution_m = 0.01, is for topic; a file has its own"},
+      {"outputs:", "obstacles: [{name: table, octomap: {depth: 16}}]\noutputs:",
+       "obstacles[0].octomap: has none, must have exactly one of file, topic"},
+      {"{stress: false}", "{octomap: {}}",
+       "outputs.octomap.resolution_m: missing, must be a number in [1e-04, 1]"},
+      {"{stress: false}", "{octomap: {resolution_m: 0}}",
+       "outputs.octomap.resolution_m = 0, must be in [1e-04, 1]"},
+      {"{stress: false}", "{octomap: {resolution_m: 0.01, rate_hz: -1}}",
+       "outputs.octomap.rate_hz = -1, must be in [0, 1000]"},
       {"name: hook", "name: kidney", "tools[1].name = kidney, is tissues[1].name too, must be new"},
       {"name: kidney", "name: tissue_pairs",
        "tissues[1].name = tissue_pairs, is what markers of contacts are called, must be another "
@@ -192,9 +211,6 @@ std::vector<BadScene> badLaws()
 std::vector<BadScene> notAvailable()
 {
   return {
-      {"outputs:", "obstacles: [{name: table, octomap: {topic: octomap_in}}]\noutputs:",
-       "obstacles[0].octomap.topic: " NOT_AVAILABLE},
-      {"{stress: false}", "{octomap: {resolution_m: 0.005}}", "outputs.octomap: " NOT_AVAILABLE},
       {"linear: auto", "linear: multigrid",
        "solver.linear = multigrid, " NOT_AVAILABLE "; must be auto, pcg, cholesky"},
   };

@@ -163,7 +163,7 @@ std::vector<BadScene> badKeys()
        "solver = fast, must be a map of keys: stepper, tolerance, max_iterations, linear, "
        "budget_ms, sleep"},
       {"outputs: {stress: false}", "outputs: [stress]",
-       "outputs = [stress], must be a map of keys: stress"},
+       "outputs = [stress], must be a map of keys: stress, octomap"},
       {"{tag: 2, young_modulus_pa: 3.0e4}", "{tag: 2}",
        "tissues[0].regions[0]: changes nothing, must have more keys than tag"},
       {"[{tag: 2, young_modulus_pa: 3.0e4}]", "{tag: 2, young_modulus_pa: 3.0e4}",
