@@ -1,11 +1,25 @@
 #include "soft_tissue_sim/node/diagnostics.h"
 
+#include "soft_tissue_sim/node/advice.h"
+
 namespace soft_tissue_sim
 {
 namespace
 {
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
+
+/** For the reason why most commands were refused. */
+const char* adviceFor(const CommandWatch& watch)
+{
+  Rejection most = Rejection::none;
+  for (int k = 1; k < kRejectionCount; ++k)
+  {
+    const auto rejection = static_cast<Rejection>(k);
+    most = watch.rejected(rejection) > watch.rejected(most) ? rejection : most;
+  }
+  return adviceFor(most);
+}
 
 void reportCommands(const CommandWatch& gate, DiagnosticStatusWrapper& status)
 {
@@ -26,6 +40,9 @@ void reportCommands(const CommandWatch& gate, DiagnosticStatusWrapper& status)
     status.summary(DiagnosticStatus::OK,
                    gate.accepted() == 0 ? "waiting for the first command" : "commands come in");
   }
+  status.add("advice", gate.rejectedInAll() > 0 ? adviceFor(gate)
+                       : gate.stale() ? "is what sends them alive? rostopic hz tells what comes"
+                                      : "");
   status.add("accepted", gate.accepted());
   status.add("rejected", gate.rejectedInAll());
   status.add("rejected: not finite", gate.rejected(Rejection::not_finite));
@@ -91,23 +108,15 @@ void Diagnostics::reportPhysics(DiagnosticStatusWrapper& status)
   const std::lock_guard<std::mutex> lock(mutex_);
   const LoopCounters& counters = loop_.counters();
   const std::uint64_t missed = counters.missed_deadlines;
-  if (report_.held)
-  {
-    status.summary(DiagnosticStatus::ERROR, "the last step failed: last good state held");
-  }
-  else if (missed > reported_missed_)
-  {
-    status.summary(DiagnosticStatus::WARN, "slower than the clock: deadlines missed");
-  }
-  else if (report_.min_det_f <= 0.0)
-  {
-    status.summary(DiagnosticStatus::WARN, "tetrahedra are turned inside out");
-  }
-  else
-  {
-    status.summary(DiagnosticStatus::OK, counters.paused ? "paused" : "running");
-  }
+  const StepTrouble trouble =
+      report_.step > 0 ? troubleOf(report_, missed > reported_missed_) : StepTrouble::none;
   reported_missed_ = missed;
+  const bool stands = trouble == StepTrouble::none && counters.paused;
+  status.summary(trouble == StepTrouble::none   ? DiagnosticStatus::OK
+                 : trouble == StepTrouble::held ? DiagnosticStatus::ERROR
+                                                : DiagnosticStatus::WARN,
+                 stands ? "paused" : troubleText(trouble));
+  status.add("advice", adviceFor(trouble));
   status.add("steps", counters.steps.load());
   status.add("simulated time (s)", report_.time_s);
   status.add("real-time factor", real_time_factor_);

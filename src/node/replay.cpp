@@ -122,7 +122,10 @@ Replay readReplay(const RunOptions& options)
   {
     replay.poses = readBagPoses(options.bag_in, replay.config.tools, options.world_frame);
     placeTools(replay.config, replay.poses);
-    for (const std::string& warning : replay.poses.warnings)
+    std::vector<std::string> warnings = replay.poses.warnings;
+    replay.maps = readBagMaps(options.bag_in, replay.config.obstacles, options.world_frame,
+                              replay.poses.start, warnings);
+    for (const std::string& warning : warnings)
     {
       std::fprintf(stderr, "warning: bag %s: %s\n", options.bag_in.c_str(), warning.c_str());
     }
@@ -141,7 +144,13 @@ void runReplay(soft_tissue::Scene& scene, const Replay& replay,
   const std::uint64_t done = snapshot.report.step, last = replay.lastStep(done);
   for (std::uint64_t step = done + 1; step <= last; ++step)
   {
-    setTargets(scene, replay.poses, static_cast<double>(step) * replay.config.time_step_s);
+    const double begin = static_cast<double>(step - 1) * replay.config.time_step_s;
+    const double end = static_cast<double>(step) * replay.config.time_step_s;
+    for (std::size_t k = 0; k < replay.maps.size(); ++k)
+    {
+      replay.maps[k].apply(step == 1 ? -1.0 : begin, end, k, scene);
+    }
+    setTargets(scene, replay.poses, end);
     scene.step();
     scene.fillSnapshot(snapshot);
     if (!seen(snapshot))

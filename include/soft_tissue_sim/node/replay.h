@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
+#include "soft_tissue_sim/node/bag_maps.h"
 #include "soft_tissue_sim/node/bag_poses.h"
 #include "soft_tissue_sim/node/run_options.h"
 #include "soft_tissue_sim/scene/scene.h"
@@ -14,7 +16,8 @@ namespace soft_tissue_sim
 struct Replay
 {
   soft_tissue::SceneConfig config;
-  BagPoses poses;  ///< no tools if there is no bag
+  BagPoses poses;             ///< no tools if there is no bag
+  std::vector<BagMaps> maps;  ///< per obstacle; none if there is no bag
   std::uint64_t steps = 0;
   bool from_now = false;  ///< so many more, wherever the scene is; else counted from its start
 
