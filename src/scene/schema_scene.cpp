@@ -55,7 +55,8 @@ const Section<SolverConfig>& solverSection()
                                               {"pcg", LinearSolverKind::pcg},
                                               {"cholesky", LinearSolverKind::cholesky}},
                                              {"multigrid"}),
-                    "Solver of the linear systems.")
+                    "Solver of the linear systems. pcg: conjugate gradients; cholesky: factors; "
+                    "auto: the former, until the latter prove to be less work.")
           .optional("budget_ms", &SolverConfig::budget_ms,
                     maybe(number(0.0, 1e6, Ends::open_below), "none", true),
                     "Wall time a step may take in sim_node: it then ends with the forces balanced "
