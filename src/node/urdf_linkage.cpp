@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "soft_tissue_sim/base/error.h"
 
@@ -50,7 +50,7 @@ Follows leaderOf(const urdf::ModelInterface& model, const urdf::Joint& joint)
     const urdf::JointConstSharedPtr next = model.getJoint(mimic.joint_name);
     if (!next || met == model.joints_.size() || kindOf(*next) == JointKind::fixed)
     {
-      throw Error("joint '" + joint.name + "' mimics '" + mimic.joint_name + "', which " +
+      throw Error("joint '" + follows.leader->name + "' mimics '" + mimic.joint_name + "', which " +
                   (!next                         ? "does not exist"
                    : met == model.joints_.size() ? "mimics it in turn"
                                                  : "does not move"));
@@ -77,10 +77,14 @@ void limit(const urdf::Joint& joint, const Follows& follows, Coordinate& coordin
   }
   if (joint.type != urdf::Joint::CONTINUOUS)
   {
-    const double lower = (joint.limits->lower - follows.offset) / factor;
-    const double upper = (joint.limits->upper - follows.offset) / factor;
-    coordinate.lower = std::max(coordinate.lower, std::min(lower, upper));
-    coordinate.upper = std::min(coordinate.upper, std::max(lower, upper));
+    double lower = (joint.limits->lower - follows.offset) / factor;
+    double upper = (joint.limits->upper - follows.offset) / factor;
+    if (factor < 0.0)
+    {
+      std::swap(lower, upper);
+    }
+    coordinate.lower = std::max(coordinate.lower, lower);
+    coordinate.upper = std::min(coordinate.upper, upper);
   }
 }
 

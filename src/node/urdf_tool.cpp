@@ -91,12 +91,14 @@ class Reader
   {
     std::vector<std::string> links = tool_.urdf->links;
     const std::string frame = tool_.urdf->frame.empty() ? links[0] : tool_.urdf->frame;
-    links.push_back(frame);
     for (const std::string& link : links)
     {
-      complaints_.during(link, [&] { check(link, link != links.back()); });
+      complaints_.during(link, [&] { check(link, true); });
     }
     complaints_.raise();
+    complaints_.during(frame, [&] { check(frame, false); });
+    complaints_.raise();
+    links.push_back(frame);
     tool_.linkage = urdfLinkage(
         model_, links, tool_.pose_source.kind == soft_tissue::PoseSourceConfig::Kind::base);
     tool_.frame = tool_.linkage.find(frame);

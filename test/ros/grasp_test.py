@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A grasper that tissue is tied to, that lifts it, and lets it go."""
+"""A grasper that lifts tissue, which is tied to it or held between its jaws, and lets it go."""
 import math
 import os
 import sys
@@ -8,6 +8,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped, WrenchStamped
+from sensor_msgs.msg import JointState
 from soft_tissue_sim.msg import SimStats, TissueState, ToolContacts
 from soft_tissue_sim.srv import Attach, Detach
 
@@ -15,14 +16,17 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from sim_client import NODE, PATIENCE_S, SimClient, wait_until
 
 TOPICS = {"stats": SimStats, "grasper/measured_cp": PoseStamped, "grasper/spatial/measured_cf": WrenchStamped,
-          "grasper/contacts": ToolContacts}
+          "grasper/contacts": ToolContacts, "grasper/jaw/measured_js": JointState}
 TIP = (0.0, 0.0, 0.032)  # where it starts, 2 mm above the block
+WIDE, HOLDING = 1.0, 0.26  # rad, angles between the jaws: clear of the strip, 2 to 2.6 mm off its middle
+SLIP_M = 0.0005  # the strip bends a little where it is held
 
 
 class GraspTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.client = SimClient(TOPICS)
+        cls.jaw = rospy.Publisher(NODE + "/grasper/jaw/servo_jp", JointState, queue_size=1)
         cls.poses = rospy.Publisher(NODE + "/grasper/servo_cp", PoseStamped, queue_size=1)
         for service in ("attach", "detach"):
             rospy.wait_for_service(NODE + "/grasper/" + service, PATIENCE_S)
@@ -33,17 +37,32 @@ class GraspTest(unittest.TestCase):
         self.client.reset()
         self.client.unpause()
 
-    def move_to(self, z):
+    def move_to(self, z, x=0.0):
         def there():
             message = PoseStamped()
             message.header.frame_id = "world"
             message.header.stamp = rospy.Time.now()
-            message.pose.position.z = z
+            message.pose.position.x, message.pose.position.z = x, z
             message.pose.orientation.x = 1.0
             self.poses.publish(message)
-            return abs(self.client.newest["grasper/measured_cp"].pose.position.z - z) < 1e-9
+            position = self.client.newest["grasper/measured_cp"].pose.position
+            return abs(position.x - x) < 1e-9 and abs(position.z - z) < 1e-9
 
-        wait_until(there, "the grasper goes to z = %g" % z)
+        wait_until(there, "the grasper goes to x = %g, z = %g" % (x, z))
+
+    def open_to(self, angle):
+        def there():
+            message = JointState(name=["jaw"], position=[angle])
+            message.header.stamp = rospy.Time.now()
+            self.jaw.publish(message)
+            return abs(self.client.newest["grasper/jaw/measured_js"].position[0] - angle) < 1e-9
+
+        wait_until(there, "the jaw is at %g" % angle)
+
+    def middle_of_strip(self):
+        state = rospy.wait_for_message(NODE + "/strip/state", TissueState, PATIENCE_S)
+        heights = state.positions[2::3]
+        return sum(heights) / len(heights)
 
     def force(self):
         f = self.client.newest["grasper/spatial/measured_cf"].wrench.force
@@ -73,6 +92,23 @@ class GraspTest(unittest.TestCase):
         wait_until(lambda: abs(self.highest() - 0.03) < 1e-4, "the block has its old shape")
         self.assertEqual(self.detach().nodes, 0)
 
+    def test_jaws_hold_by_friction_and_let_go(self):
+        self.move_to(0.05, x=0.1)
+        self.open_to(WIDE)
+        self.move_to(0.02, x=0.1)
+        self.assertEqual(self.force(), (0.0, 0.0, 0.0), "both jaws are beside the strip")
+        self.open_to(HOLDING)
+        wait_until(lambda: self.client.newest["grasper/contacts"].points, "the jaws touch the strip")
+        held = self.middle_of_strip()
+        self.move_to(0.04, x=0.1)
+        lifted = self.middle_of_strip()
+        self.assertAlmostEqual(lifted - held, 0.02, delta=SLIP_M)
+        self.open_to(WIDE)
+        wait_until(lambda: not self.client.newest["grasper/contacts"].points, "nothing touches any more")
+        self.assertEqual(self.force(), (0.0, 0.0, 0.0))
+        self.move_to(0.08, x=0.1)
+        self.assertLess(self.middle_of_strip(), 0.045, "the strip stays behind")
+
     def test_one_jaw_may_hold_alone(self):
         answer = self.attach(part="jaw_2", tissue="block", reach=0.008, stiffness=1e6)
         self.assertTrue(answer.success, answer.message)
@@ -86,7 +122,7 @@ class GraspTest(unittest.TestCase):
 
     def test_what_is_not_there_is_told(self):
         cases = ((dict(part="thumb", reach=0.01), "part = 'thumb', must be one of: shaft, jaw_1, jaw_2"),
-                 (dict(tissue="liver", reach=0.01), "tissue = 'liver', must be one of: block"),
+                 (dict(tissue="liver", reach=0.01), "tissue = 'liver', must be one of: block, strip"),
                  (dict(reach=-1.0), "reach = -1.000000 m, must be >= 0"),
                  (dict(reach=math.nan), "reach = nan m, must be >= 0"),
                  (dict(reach=0.01, stiffness=-1.0), "stiffness = -1.000000 Pa/m, must be > 0"),

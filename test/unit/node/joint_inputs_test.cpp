@@ -162,7 +162,8 @@ TEST_F(Joints, areToldByTheFramesOfTheLinks)
     publish();
     expectLast(0.004, 0.011, n);
   }
-  buffer.setTransform(transform("arm_palm", "arm_left_jaw", Pose::Identity(), stamp_s), "test");
+  const Pose beside(Eigen::Translation3d(0.0, 0.01, 0.0));
+  buffer.setTransform(transform("arm_palm", "arm_left_jaw", beside, stamp_s), "test");
   input.poll();
   EXPECT_EQ(gate_.rejected(Rejection::other_motion), 1u);
 }

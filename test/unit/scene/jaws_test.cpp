@@ -202,6 +202,22 @@ TEST_F(Jaws, CloseLiftAndLetGo)
   EXPECT_LT(centreOf(snapshotOf(scene).tissues[0]).z(), before - 1e-5) << "falling";
 }
 
+TEST_F(Jaws, WithoutFrictionTissueSlipsOut)
+{
+  SceneConfig config = block(0.0);
+  config.gravity_m_per_s2.z() = -1.0;
+  config.tissues[0].material.mass_damping_per_s = 20.0;
+  Scene scene(config);
+  squeeze(scene, 0.0, kSqueeze, 10);
+  const double before = centreOf(snapshotOf(scene).tissues[0]).z();
+  for (int n = 1; n <= 20; ++n)
+  {
+    scene.setToolTarget(0, raised(scene.toolPose(0), 5e-4));
+    scene.step();
+  }
+  EXPECT_LT(centreOf(snapshotOf(scene).tissues[0]).z(), before - 1e-3);
+}
+
 TEST_F(Jaws, SameBitsForAnyNumberOfThreads)
 {
   std::uint64_t hash[2] = {};
