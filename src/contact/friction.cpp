@@ -67,6 +67,7 @@ void Friction::addTo(StateHash& hash) const
 
 void Friction::exchange(StateArchive& archive)
 {
+  archive.value(step_s_);  // forces of damping are told before the next step begins
   std::uint64_t count = grips_.size();
   archive.value(count);
   if (archive.reading())

@@ -161,7 +161,7 @@ TEST_F(SetMaterial, RefusesWhatAFileMustNotHave)
   EXPECT_EQ(complaint(scene, {{}, {}, {}, {}, 2.0}),
             where + "stiffening = 2, is for model exponential, which this is not of");
   EXPECT_EQ(complaint(scene, {2, {}, {}, {}, 200.0}),
-            where + "stiffening = 200, must be in [1e-03, 100]");
+            where + "stiffening = 200, must be in [0.001, 100]");
   EXPECT_EQ(complaint(scene, {7, 1000.0, {}, {}, {}}),
             where + "region = 7, must be one that the scene file names: 2");
   EXPECT_THROW(scene.setMaterial(1, {}), std::out_of_range);

@@ -4,9 +4,8 @@
 #include <functional>
 #include <ostream>
 
-#include "soft_tissue_sim/base/error.h"
-#include "soft_tissue_sim/base/hash.h"
 #include "soft_tissue_sim/base/state_archive.h"
+#include "support/state_scenes.h"
 #include "support/voxel_scenes.h"
 
 namespace soft_tissue::test
@@ -28,20 +27,6 @@ void PrintTo(const Case& one, std::ostream* out)
 }
 
 constexpr int kBefore = 14, kAfter = 14;
-
-/** A block that a ball presses down and strokes, from step to step. */
-SceneConfig stroked(const ScratchFolder& folder)
-{
-  SceneConfig config = blockScene(folder, {5, 5, 3});
-  fixBelow(config, 1e-6);
-  addTool(config, SphereShape{0.01}, {}, Response::segment);
-  config.contacts[0].friction = 0.5;
-  config.tools[0].pose_source.kind = PoseSourceConfig::Kind::keyframes;
-  config.tools[0].pose_source.keyframes = {{0.0, {Vec3(0.0, 0.0, kBlockTop + 0.0101), {}}},
-                                           {0.1, {Vec3(0.0, 0.0, kBlockTop + 0.007), {}}},
-                                           {0.4, {Vec3(0.008, 0.003, kBlockTop + 0.006), {}}}};
-  return config;
-}
 
 template <typename Change>
 auto changed(const Change& change)
@@ -217,52 +202,6 @@ class State : public testing::TestWithParam<Case>
 INSTANTIATE_TEST_SUITE_P(Scenes, State, testing::ValuesIn(cases()),
                          [](const auto& info) { return std::string(info.param.name); });
 
-void expectSame(const std::vector<ContactPoint>& a, const std::vector<ContactPoint>& b)
-{
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    EXPECT_EQ(a[i].position_W, b[i].position_W);
-    EXPECT_EQ(a[i].force_W, b[i].force_W);
-    EXPECT_EQ(a[i].depth, b[i].depth);
-    EXPECT_EQ(a[i].tet, b[i].tet);
-  }
-}
-
-void expectSame(const Scene& one, const Scene& other)
-{
-  Snapshot a, b;
-  one.fillSnapshot(a);
-  other.fillSnapshot(b);
-  EXPECT_EQ(a.state_hash, b.state_hash);
-  EXPECT_EQ(a.report.step, b.report.step);
-  EXPECT_EQ(a.report.time_s, b.report.time_s);
-  EXPECT_EQ(a.report.residual, b.report.residual);
-  EXPECT_EQ(a.report.contacts, b.report.contacts);
-  EXPECT_EQ(a.report.max_penetration_m, b.report.max_penetration_m);
-  EXPECT_EQ(a.report.min_det_f, b.report.min_det_f);
-  for (std::size_t k = 0; k < a.tissues.size(); ++k)
-  {
-    EXPECT_EQ(a.tissues[k].positions, b.tissues[k].positions);
-    EXPECT_EQ(a.tissues[k].asleep, b.tissues[k].asleep);
-  }
-  for (std::size_t k = 0; k < a.tools.size(); ++k)
-  {
-    EXPECT_EQ(a.tools[k].X_WT.matrix(), b.tools[k].X_WT.matrix());
-    EXPECT_EQ(a.tools[k].wrench_W.force, b.tools[k].wrench_W.force);
-    expectSame(a.tools[k].contacts, b.tools[k].contacts);
-  }
-  for (std::size_t k = 0; k < a.obstacles.size(); ++k)
-  {
-    expectSame(a.obstacles[k].contacts, b.obstacles[k].contacts);
-    EXPECT_EQ(one.obstacles()[k].surface.nodes, other.obstacles()[k].surface.nodes);
-  }
-  for (std::size_t k = 0; k < a.tissue_pairs.size(); ++k)
-  {
-    expectSame(a.tissue_pairs[k].contacts, b.tissue_pairs[k].contacts);
-  }
-}
-
 TEST_P(State, StepsAfterItWasLoadedHaveTheBitsOfThoseWithout)
 {
   const SceneConfig config = GetParam().config(folder_);
@@ -296,131 +235,6 @@ TEST_P(State, IsTheSameFileAfterItWasLoaded)
   other.loadState(folder_.path("state"));
   other.saveState(folder_.path("again"));
   EXPECT_EQ(readBytes(folder_.path("state")), readBytes(folder_.path("again")));
-}
-
-TEST(StateFile, OfASceneThatHasNotBegun)
-{
-  const ScratchFolder folder;
-  const SceneConfig config = stroked(folder);
-  Scene scene(config), other(config);
-  scene.saveState(folder.path("state"));
-  for (int k = 0; k < 5; ++k)
-  {
-    other.step();
-  }
-  other.loadState(folder.path("state"));
-  expectSame(scene, other);
-  scene.step();
-  other.step();
-  expectSame(scene, other);
-}
-
-/** What loading a file complains of, its name as FILE; nothing may have changed by that. */
-std::string complaint(Scene& scene, const std::string& file)
-{
-  const std::uint64_t before = scene.stateHash();
-  std::string text = "none";
-  try
-  {
-    scene.loadState(file);
-  }
-  catch (const Error& error)
-  {
-    text = error.what();
-    EXPECT_EQ(scene.stateHash(), before);
-    const std::size_t at = text.find(file);
-    text = at == std::string::npos ? text : text.replace(at, file.size(), "FILE");
-  }
-  return text;
-}
-
-TEST(StateFile, OfAnotherSceneOrDamagedIsRefusedAndNothingChanges)
-{
-  const ScratchFolder folder;
-  const SceneConfig config = stroked(folder);
-  Scene scene(config), untouched(config);
-  const std::string file = folder.path("state");
-  for (int k = 0; k < 5; ++k)
-  {
-    scene.step();
-    untouched.step();
-  }
-  scene.saveState(file);
-  const std::string good = readBytes(file);
-  EXPECT_EQ(complaint(scene, folder.path("gone")), "FILE: can't be read");
-  for (const std::size_t length :
-       {std::size_t{0}, std::size_t{9}, good.size() / 2, good.size() - 1})
-  {
-    writeBytes(folder.path("cut"), good.substr(0, length));
-    const std::string said = complaint(scene, folder.path("cut"));
-    EXPECT_TRUE(said == "state FILE is no saved state" ||
-                said ==
-                    "state FILE is damaged: its checksum is not that of what it holds; "
-                    "truncated?")
-        << said;
-  }
-  std::string flipped = good;
-  flipped[good.size() / 3] ^= 4;
-  writeBytes(folder.path("flipped"), flipped);
-  EXPECT_EQ(complaint(scene, folder.path("flipped")),
-            "state FILE is damaged: its checksum is not that of what it holds; truncated?");
-  for (const auto& change : std::vector<std::function<void(SceneConfig&)>>{
-           [](SceneConfig& c) { c.time_step_s = 0.02; },
-           [](SceneConfig& c) { c.contacts[0].friction = 0.1; },
-           [](SceneConfig& c) {
-             c.tools[0].name = "probe";
-             c.contacts[0].other = "probe";
-           },
-           [](SceneConfig& c) { c.tissues[0].pose.position_m.x() += 1e-9; },
-           [](SceneConfig& c) { c.solver.stepper = Stepper::bdf2; }})
-  {
-    SceneConfig other = config;
-    change(other);
-    Scene another(other);
-    EXPECT_EQ(complaint(another, file), "state FILE is the state of another scene");
-  }
-  scene.step();
-  untouched.step();
-  expectSame(scene, untouched);
-}
-
-// Its checksum is right, and what it is a state of.
-TEST(StateFile, ThatFitsNotToTheEndLeavesTheSceneAsItWas)
-{
-  const ScratchFolder folder;
-  SceneConfig config = stroked(folder);
-  Scene scene(config), untouched(config);
-  for (int k = 0; k < 8; ++k)
-  {
-    scene.step();
-    untouched.step();
-  }
-  // Another name for the section that is read last, and the sum right again.
-  scene.saveState(folder.path("state"));
-  std::string bytes = readBytes(folder.path("state"));
-  const std::size_t at = bytes.find("report");
-  ASSERT_NE(at, std::string::npos);
-  bytes.replace(at, 6, "repert");
-  bytes.resize(bytes.size() - 8);
-  StateHash hash;
-  hash.add(bytes.data(), bytes.size());
-  const std::uint64_t sum = hash.value();
-  bytes.append(reinterpret_cast<const char*>(&sum), 8);
-  writeBytes(folder.path("bad"), bytes);
-  EXPECT_EQ(complaint(scene, folder.path("bad")), "state FILE has no section 'report'");
-  for (int k = 0; k < 5; ++k)
-  {
-    scene.step();
-    untouched.step();
-    expectSame(scene, untouched);
-  }
-}
-
-TEST(StateFile, CanNotBeWrittenWhereThereIsNoFolder)
-{
-  const ScratchFolder folder;
-  const Scene scene(stroked(folder));
-  EXPECT_THROW(scene.saveState(folder.path("gone") + "/state"), Error);
 }
 
 }  // namespace
