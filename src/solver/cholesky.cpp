@@ -39,6 +39,8 @@ class Cholesky : public LinearSolver
     return {1, 0.0, false, false};
   }
 
+  bool isUneven() const override { return iterative_->isUneven(); }
+
  private:
   bool hasPatternOf(const BlockMatrix& a) const
   {

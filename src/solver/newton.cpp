@@ -34,6 +34,11 @@ constexpr double kServesAgain = 0.1;
 constexpr double kLeads = 0.5;
 /** Linear iterations that are done however little time there is. */
 constexpr int kFewestLinear = 8;
+/** Accuracy of a linear solve that is believed when it says how far the end is: what a loose one
+ * leaves may be forces that soft parts feel, beside stiff ones that hide them. */
+constexpr double kBelieved = 1e-6;
+/** Ends that are believed to be as near as loose solves say, in a row, because such ends were. */
+constexpr int kMostTrusted = 63;
 /** Moves this far below the size of the coordinates are rounding errors. */
 constexpr double kUnresolved = 1e-12;
 
@@ -210,6 +215,32 @@ LinearReport NewtonSolver::solveAnew(const std::vector<EnergyTerm*>& terms, cons
   return solve(accuracy, report);
 }
 
+/** Whether the forces left would move no node by more than `within`, m, by the second derivatives
+ * at hand, where a loose solve says so. That is looked at closely where stiff parts may hide soft
+ * ones, and elsewhere now and then: the more rarely the more often it was right. */
+bool NewtonSolver::endsWithin(double within, NewtonReport& report)
+{
+  if (trusted_ > 0 && !linear_->isUneven())
+  {
+    --trusted_;
+    return true;
+  }
+  takeDescent();
+  const LinearReport linear = solve(kBelieved, report);
+  const bool near = !linear.indefinite && !linear.cut_short && largest(direction_) <= within;
+  trust_ = near ? std::min(2 * trust_ + 1, kMostTrusted) : 0;
+  trusted_ = trust_;
+  return near;
+}
+
+void NewtonSolver::takeDescent()
+{
+  for (std::size_t i = 0; i < gradient_.size(); ++i)
+  {
+    descent_[i] = -gradient_[i];
+  }
+}
+
 /** Goes to trial_ and trial_gradient_. */
 NewtonSolver::State NewtonSolver::tryStep(const std::vector<EnergyTerm*>& terms, const Points& x,
                                           double step, std::vector<double>& seconds)
@@ -320,10 +351,7 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
       break;
     }
     ++report.iterations;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      descent_[i] = -gradient_[i];
-    }
+    takeDescent();
     // More than the tolerance asked for is lost on this iteration.
     accuracy = std::max({accuracy, 1e-10, 0.3 * options.tolerance / state.residual});
     accuracy = std::min(accuracy, 0.1);
@@ -334,7 +362,9 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
     // What was cut short has not seen the slow motions.
     const double reach = longest / state.force;
     reach_ = linear.cut_short && reach_ > reach ? reach_ : reach;
-    settled = anew && !linear.indefinite && !linear.cut_short && longest <= kUnresolved * size;
+    const double unresolved = kUnresolved * size;
+    settled = anew && !linear.indefinite && !linear.cut_short && longest <= unresolved &&
+              endsWithin(unresolved, report);
     if (settled)
     {
       break;
@@ -354,7 +384,9 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
       x.swap(trial_);
       gradient_.swap(trial_gradient_);
       state = next;
-      settled = step == 1.0 && left * longest <= options.settled && !linear.cut_short;
+      settled = step == 1.0 && state.residual > options.tolerance &&
+                left * longest <= options.settled && !linear.cut_short &&
+                endsWithin(options.settled, report);
       accuracy = left * left;
     }
     directing_s_ = timer_.seconds() - begun_s - (anew ? assembly_s_ : 0.0);

@@ -40,6 +40,10 @@ class LinearSolver
    * @param d                out, N x 3; of an indefinite A what was found until then, perhaps zero
    */
   virtual LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) = 0;
+
+  /** Whether some nodes are held so much more strongly than others that forces on these are hidden
+   * beside those on them: an answer is then as good as its tolerance for the strong ones only. */
+  virtual bool isUneven() const = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();
