@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include "hard_catalogue.h"
 
@@ -81,8 +82,7 @@ void addMaterials(HardCatalogue& all)
     stiff.young_modulus_pa = 2e10;
     body(one).regions.push_back(stiff);
     one.config.gravity_m_per_s2 = Vec3(0.0, 0.0, -9.81);
-    one.ending = Ending::anything;
-    one.may_hold = soft_foot;
+    one.ending = Ending::settles;
   }
 }
 
@@ -104,12 +104,15 @@ void addRuins(HardCatalogue& all)
        Ending::returns},
       {"inside out", [=](const Vec3& p) { return Vec3(-p.x(), p.y(), p.z()); }, Ending::settles},
   };
-  for (const MaterialModel model :
-       {MaterialModel::neo_hookean, MaterialModel::corotated, MaterialModel::exponential})
+  const std::pair<MaterialModel, const char*> laws[] = {
+      {MaterialModel::neo_hookean, "neo_hookean, "},
+      {MaterialModel::corotated, "corotated, "},
+      {MaterialModel::exponential, "exponential, "},
+      {MaterialModel::mass_spring, "mass_spring, "}};
+  for (const auto& [model_of_law, name_of_law] : laws)
   {
-    const std::string law = model == MaterialModel::neo_hookean ? "neo_hookean, "
-                            : model == MaterialModel::corotated ? "corotated, "
-                                                                : "exponential, ";
+    const MaterialModel model = model_of_law;
+    const std::string law = name_of_law;
     const auto addRuin = [&](const std::string& name) -> HardCase& {
       HardCase& one = all.addBar(law + name);
       body(one).material.model = model;
