@@ -184,25 +184,25 @@ TEST(MassSpringKeys, RefusesKeysThatSpringsDoNotHave)
 {
   const Refusal refusals[] = {
       {"{model: mass_spring, young_modulus_pa: 3000, poisson_ratio: 0.2, density_kg_per_m3: 1060}",
-       "tissues[0].material has poisson_ratio 0.2, must be at least 0.25 with model mass_spring"},
+       "tissues[0].material: has poisson_ratio 0.2, must be at least 0.25 with model mass_spring"},
       {"{model: mass_spring, young_modulus_pa: 3000, poisson_ratio: 0.3, density_kg_per_m3: 1060, "
        "stiffening: 1}",
        "tissues[0].material.stiffening = 1, is for model exponential, which is not asked for"},
       {"{model: mass_spring, young_modulus_pa: 3000, poisson_ratio: 0.3, density_kg_per_m3: 1060, "
        "stiffness_damping_s: 0.1}",
-       "tissues[0].material has relaxation or stiffness_damping_s, which model mass_spring doesn't "
+       "tissues[0].material: has relaxation or stiffness_damping_s, which model mass_spring doesn't "
        "take"},
       {"{young_modulus_pa: 3000, poisson_ratio: 0.3, density_kg_per_m3: 1060, "
        "relaxation: [{relative_modulus: 1, relaxation_time_s: 1}]}\n"
        "    regions: [{tag: 2, model: mass_spring}]",
-       "tissues[0].material has relaxation or stiffness_damping_s, which model mass_spring doesn't "
+       "tissues[0].material: has relaxation or stiffness_damping_s, which model mass_spring doesn't "
        "take"},
       {"{model: mass_spring, young_modulus_pa: 3000, poisson_ratio: 0.3, density_kg_per_m3: 1060}\n"
        "    element: tet10",
        "tissues[0].element = tet10, must be tet4 with model mass_spring"},
       {"{young_modulus_pa: 3000, poisson_ratio: 0, density_kg_per_m3: 1060}\n"
        "    regions: [{tag: 2, model: mass_spring}]",
-       "tissues[0].regions[0] has poisson_ratio 0, must be at least 0.25 with model mass_spring"}};
+       "tissues[0].regions[0]: has poisson_ratio 0, must be at least 0.25 with model mass_spring"}};
   const SceneFolder folder;
   for (const Refusal& refusal : refusals)
   {
