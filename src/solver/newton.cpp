@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "node_vectors.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/base/timer.h"
 
@@ -10,7 +11,6 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 512;  // nodes per parallel piece
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kMaxBacktracks = 40;
 /** Rounding errors of a potential, as a share of the sum of its terms: materials subtract terms of
@@ -41,30 +41,6 @@ constexpr double kBelieved = 1e-6;
 constexpr int kMostTrusted = 63;
 /** Moves this far below the size of the coordinates are rounding errors. */
 constexpr double kUnresolved = 1e-12;
-
-double dot(const Points& a, const Points& b)
-{
-  return parallelSum(static_cast<Index>(a.size()), kGrain, [&](Index begin, Index end) {
-    double sum = 0.0;
-    for (Index i = begin; i < end; ++i)
-    {
-      sum += a[i].dot(b[i]);
-    }
-    return sum;
-  });
-}
-
-/** Largest coordinate in size; NaN where one is. */
-double largest(const Points& points)
-{
-  double size = 0.0;
-  for (const Vec3& p : points)
-  {
-    const double here = p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    size = here > size || std::isnan(here) ? here : size;
-  }
-  return size;
-}
 }  // namespace
 
 NewtonSolver::NewtonSolver(const Adjacency& neighbours, const std::vector<Index>& fixed,
@@ -98,7 +74,7 @@ void NewtonSolver::restoreFixed(const Points& from, Points& to) const
 /** sum += part, part = 0; returns |part|^2. */
 double NewtonSolver::moveInto(Points& sum, Points& part) const
 {
-  return parallelSum(static_cast<Index>(part.size()), kGrain, [&](Index begin, Index end) {
+  return parallelSum(static_cast<Index>(part.size()), kNodeGrain, [&](Index begin, Index end) {
     double squared = 0.0;
     for (Index i = begin; i < end; ++i)
     {

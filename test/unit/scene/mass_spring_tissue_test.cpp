@@ -190,13 +190,13 @@ TEST(MassSpringKeys, RefusesKeysThatSpringsDoNotHave)
        "tissues[0].material.stiffening = 1, is for model exponential, which is not asked for"},
       {"{model: mass_spring, young_modulus_pa: 3000, poisson_ratio: 0.3, density_kg_per_m3: 1060, "
        "stiffness_damping_s: 0.1}",
-       "tissues[0].material: has relaxation or stiffness_damping_s, which model mass_spring doesn't "
-       "take"},
+       "tissues[0].material: has relaxation or stiffness_damping_s, which model mass_spring "
+       "doesn't take"},
       {"{young_modulus_pa: 3000, poisson_ratio: 0.3, density_kg_per_m3: 1060, "
        "relaxation: [{relative_modulus: 1, relaxation_time_s: 1}]}\n"
        "    regions: [{tag: 2, model: mass_spring}]",
-       "tissues[0].material: has relaxation or stiffness_damping_s, which model mass_spring doesn't "
-       "take"},
+       "tissues[0].material: has relaxation or stiffness_damping_s, which model mass_spring "
+       "doesn't take"},
       {"{model: mass_spring, young_modulus_pa: 3000, poisson_ratio: 0.3, density_kg_per_m3: 1060}\n"
        "    element: tet10",
        "tissues[0].element = tet10, must be tet4 with model mass_spring"},
