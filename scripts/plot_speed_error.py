@@ -3,6 +3,7 @@
 
     plot_speed_error.py DIR    DIR/field.csv becomes DIR/field_error.png and DIR/field_scaling.png,
                                DIR/fem.csv DIR/fem_<case>.png
+                               DIR/features.csv DIR/features.png
 
 Fields: squares are grids of the second order, numbers their points along an axis. FEM: numbers are nodes, lines join
 what no other way beats in both, stars are the defaults of a scene file.
@@ -124,19 +125,46 @@ def plot_all_fem(folder):
         plot_fem(rows, case, os.path.join(folder, "fem_%s.png" % case.replace(" ", "_").replace("/", "_")))
 
 
+def read_features(path):
+    with open(path) as stream:
+        rows = list(csv.DictReader(stream))
+    for row in rows:
+        for key in ("ms", "ratio", "wall_ratio"):
+            row[key] = float(row[key])
+    return rows
+
+
+def plot_features(rows, path):
+    """How many times as long steps take with a feature as without it; two threads by the clock on the wall."""
+    shown = [row for row in rows if row["state"] != "off"]
+    figure, axis = plt.subplots(figsize=(8, 0.24 * len(shown) + 1))
+    ratios = [row["wall_ratio"] if row["threads"] != "1" else row["ratio"] for row in shown]
+    colours = ["tab:grey" if row["state"] == "idle" else "tab:blue" for row in shown]
+    axis.barh(range(len(shown)), [ratio - 1 for ratio in ratios], left=1, color=colours)
+    axis.set_yticks(range(len(shown)), ["%s: %s" % (row["feature"], row["state"]) for row in shown], fontsize=7)
+    axis.invert_yaxis()
+    axis.axvline(1, color="black", linewidth=0.8)
+    axis.set_xlabel("times as long as without it: idle grey, in use blue")
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = sys.argv[1]
-    there = [name for name in ("field.csv", "fem.csv") if os.path.exists(os.path.join(folder, name))]
+    there = [name for name in ("field.csv", "fem.csv", "features.csv") if os.path.exists(os.path.join(folder, name))]
     if not there:
-        sys.exit("%s: neither field.csv nor fem.csv is there" % folder)
+        sys.exit("%s: neither field.csv, fem.csv nor features.csv is there" % folder)
     if "field.csv" in there:
         rows = read(os.path.join(folder, "field.csv"))
         plot_error(rows, os.path.join(folder, "field_error.png"))
         plot_scaling(rows, os.path.join(folder, "field_scaling.png"))
     if "fem.csv" in there:
         plot_all_fem(folder)
+    if "features.csv" in there:
+        plot_features(read_features(os.path.join(folder, "features.csv")), os.path.join(folder, "features.png"))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include "hard_catalogue.h"
 
@@ -88,8 +89,7 @@ void addMaterials(HardCatalogue& all)
     stiff.young_modulus_pa = 2e10;
     body(one).regions.push_back(stiff);
     one.config.gravity_m_per_s2 = Vec3(0.0, 0.0, -9.81);
-    one.ending = Ending::anything;
-    one.may_hold = soft_foot;
+    one.ending = Ending::settles;
   }
 }
 
@@ -120,7 +120,8 @@ void addRuins(HardCatalogue& all)
   for (const Kind& kind : {Kind{"neo_hookean, ", MaterialModel::neo_hookean, ElementKind::tet4},
                            {"corotated, ", MaterialModel::corotated, ElementKind::tet4},
                            {"exponential, ", MaterialModel::exponential, ElementKind::tet4},
-                           {"nodal pressure, ", MaterialModel::neo_hookean, ElementKind::tet4_anp}})
+                           {"nodal pressure, ", MaterialModel::neo_hookean, ElementKind::tet4_anp},
+                           {"mass_spring, ", MaterialModel::mass_spring, ElementKind::tet4}})
   {
     const MaterialModel model = kind.model;
     const auto addRuin = [&](const std::string& name) -> HardCase& {
@@ -136,7 +137,8 @@ void addRuins(HardCatalogue& all)
     for (const Ruin& ruin : ruins)
     {
       HardCase& one = addRuin(ruin.name);
-      one.ending = ruin.ending;
+      // Springs may keep a fold.
+      one.ending = model == MaterialModel::mass_spring ? Ending::settles : ruin.ending;
       const auto place = ruin.place;
       one.begin = [place](Scene& scene) { deform(scene, place); };
     }

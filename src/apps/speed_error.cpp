@@ -6,6 +6,7 @@
 #include <string>
 
 #include "contact_study.h"
+#include "feature_cost.h"
 #include "fem_study.h"
 #include "field_study.h"
 #include "stability_study.h"
@@ -13,7 +14,7 @@
 namespace
 {
 constexpr const char* kUsage =
-    "usage: speed_error field|contact|fem|stability --out DIR [--quick]\n"
+    "usage: speed_error field|contact|fem|stability|features --out DIR [--quick]\n"
     "  field    distance fields: DIR/field.csv; rosrun soft_tissue_sim plot_speed_error.py DIR\n"
     "           draws it\n"
     "  contact  forces on tools against contact mechanics: DIR/contact.csv; finding who touches\n"
@@ -22,6 +23,7 @@ constexpr const char* kUsage =
     "           DIR/fem_bullet.csv; its shares of bandwidth: DIR/fem_roofline.csv; speed against\n"
     "           error of elements, laws, solvers: DIR/fem.csv, drawn by plot_speed_error.py\n"
     "  stability  hard cases, how each ends: DIR/stability.csv\n"
+    "  features   what a step costs with each feature off, idle, in use: DIR/features.csv\n"
     "  --quick  small bodies only, each timed once\n";
 
 using Study = void (*)(const std::string& folder, bool quick);
@@ -32,6 +34,7 @@ Study studyNamed(const std::string& name)
          : name == "contact"   ? soft_tissue::studies::studyContact
          : name == "fem"       ? soft_tissue::studies::studyFem
          : name == "stability" ? soft_tissue::studies::studyStability
+         : name == "features"  ? soft_tissue::studies::studyFeatures
                                : nullptr;
 }
 }  // namespace

@@ -46,8 +46,12 @@ TissueInTissue::TissueInTissue(const TissueBody& intruder, const TissueBody& hos
       element_nodes_(numbersOf(elements_, options.segments)),
       field_(std::move(host_field), host.node_count, options.lazy_field),
       surface_(host, intruderOf(intruder, side, self), options),
-      rest_(self ? host.rest : nullptr)
+      is_self_(self)
 {
+  if (self)
+  {
+    takeRestBoxes(*host.rest);
+  }
   const int each = options.segments ? 2 : 1;
   const ElementSet surface = {element_nodes_.data(), each, static_cast<Index>(elements_.size())};
   const ElementSet tets = {host.tets->data()->data(), 4, static_cast<Index>(host.tets->size())};
@@ -64,7 +68,7 @@ void TissueInTissue::beginStep(const Positions& at, double margin, bool refresh)
 void TissueInTissue::lookAround(double margin)
 {
   finder_->find(at_.intruder_expected->data(), at_.host_expected->data(), margin, candidates_);
-  if (rest_ != nullptr)
+  if (is_self_)
   {
     dropNeighbours();
   }
@@ -93,21 +97,34 @@ void TissueInTissue::lookAround(double margin)
   field_.expect(host_nodes_);
 }
 
+void TissueInTissue::takeRestBoxes(const Points& rest)
+{
+  for (Index element = 0; element < static_cast<Index>(elements_.size()); ++element)
+  {
+    Box3 box;
+    for (const Index node : elements_.nodes(element))
+    {
+      box.extend(rest[node]);
+    }
+    box.grow(kNeighbours * host_.short_edge);
+    element_boxes_.push_back(box);
+  }
+  for (const Tet& tet : *host_.tets)
+  {
+    Box3 box;
+    for (const Index node : tet)
+    {
+      box.extend(rest[node]);
+    }
+    tet_boxes_.push_back(box);
+  }
+}
+
 /** What is side by side at rest stays so, and is most of what is near in a body. */
 void TissueInTissue::dropNeighbours()
 {
   const auto areNeighbours = [&](const ElementPair& pair) {
-    Box3 element, tet;
-    for (const Index node : elements_.nodes(pair.first))
-    {
-      element.extend((*rest_)[node]);
-    }
-    for (const Index node : (*host_.tets)[pair.second])
-    {
-      tet.extend((*rest_)[node]);
-    }
-    element.grow(kNeighbours * host_.short_edge);
-    return element.overlaps(tet);
+    return element_boxes_[pair.first].overlaps(tet_boxes_[pair.second]);
   };
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), areNeighbours),
                     candidates_.end());

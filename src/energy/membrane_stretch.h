@@ -4,33 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soft_root.h"
 #include "soft_tissue_sim/base/types.h"
 
 namespace soft_tissue
 {
-/** The area ratio J as the law sees it, a function of w = J^2. */
-struct AreaRatio
-{
-  double value, slope, curvature;
-};
-
-/** Below this J is replaced by a polynomial in J^2 with the same value and two derivatives: |c| has
- * a tip at c = 0, where a triangle that is pulled through itself would meet infinite stiffness. */
-constexpr double kSmallAreaRatio = 0.1;
-
-inline AreaRatio areaRatio(double w)
-{
-  constexpr double kSmall = kSmallAreaRatio;
-  if (w >= kSmall * kSmall)
-  {
-    const double j = std::sqrt(w);
-    return {j, 0.5 / j, -0.25 / (w * j)};
-  }
-  const double u = w / (kSmall * kSmall);
-  return {kSmall * (0.375 + u * (0.75 - 0.125 * u)), (0.75 - 0.25 * u) / kSmall,
-          -0.25 / (kSmall * kSmall * kSmall)};
-}
-
 /** Constants of a triangle in its plane. */
 struct StretchRest
 {
@@ -58,7 +36,7 @@ struct StretchState
 /** mu/2 (|F|^2 - 2) - mu (j - 1) + kappa/2 (j - 1)^2, J. */
 inline double stretchEnergy(const StretchRest& rest, const StretchState& f)
 {
-  const double more = areaRatio(f.w).value - 1.0;
+  const double more = softRoot(f.w).value - 1.0;
   return rest.mu * (0.5 * (f.f1.squaredNorm() + f.f2.squaredNorm() - 2.0) - more) +
          0.5 * rest.kappa * more * more;
 }
@@ -66,7 +44,7 @@ inline double stretchEnergy(const StretchRest& rest, const StretchState& f)
 /** Its derivative by the three nodes, N. */
 inline void stretchForces(const StretchRest& rest, const StretchState& f, Vec3* gradient)
 {
-  const AreaRatio j = areaRatio(f.w);
+  const SoftRoot j = softRoot(f.w);
   const double pull = 2.0 * j.slope * (rest.kappa * (j.value - 1.0) - rest.mu);
   const Vec3 p1 = rest.mu * f.f1 + pull * f.f2.cross(f.c);
   const Vec3 p2 = rest.mu * f.f2 + pull * f.c.cross(f.f1);
@@ -141,7 +119,7 @@ inline void projectPair(double& a, double& b, double& c)
 inline void stretchStiffness(const StretchRest& rest, const StretchState& f, bool positive, Mat3* k)
 {
   const PrincipalStretch p = principalStretch(f);
-  const AreaRatio r = areaRatio(f.w);
+  const SoftRoot r = softRoot(f.w);
   const double j = p.s1 * p.s2, stress = rest.kappa * (r.value - 1.0) - rest.mu;
   const double slope = 2.0 * j * r.slope;  // dj/dJ
   const double pull = 2.0 * stress * r.slope;

@@ -60,6 +60,7 @@ void Scene::Impl::forgetWay()
   std::fill(asleep_.begin(), asleep_.end(), 0);
   std::fill(quiet_s_.begin(), quiet_s_.end(), 0.0);
   setSleepers();
+  newton_->forget();
   for (Contact& contact : contacts_)
   {
     contact.term->forget();

@@ -13,6 +13,7 @@
 #include "soft_tissue_sim/energy/anchor_springs.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
 #include "soft_tissue_sim/scene/scene.h"
+#include "soft_tissue_sim/scene/step_budget.h"
 #include "soft_tissue_sim/solver/newton.h"
 #include "tissue_elasticity.h"
 
@@ -244,7 +245,9 @@ class Scene::Impl
   void fallAsleep();
   void setSleepers();
   bool stiffenWhereTooDeep();
+  std::optional<double> wholeBudget() const;
   double timeLeft() const;
+  void reportEnd();
   void standStillIfBetter(double h);
   void extrapolate(double end_s);
   void placeMovedNodes(double time_s, Points& x) const;
@@ -296,6 +299,8 @@ class Scene::Impl
   std::unique_ptr<NewtonSolver> newton_;
   NewtonOptions newton_options_;
   Timer step_timer_;
+  StepBudget budget_;
+  NewtonReport end_;                  ///< how the last minimisation ended
   double finish_s_ = 0.0;             ///< what reading out the last step took
   double last_h_ = 0.0;               ///< length of the last part of a step, s
   Points x_last_, v_last_;            ///< where that began

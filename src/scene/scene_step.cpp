@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "scene_impl.h"
 #include "soft_tissue_sim/base/timer.h"
@@ -34,7 +34,9 @@ const StepReport& Scene::Impl::step()
   {
     tissue.evaluations = 0;
   }
+  budget_.begin(wholeBudget());
   const bool any_awake = sleepers() < tissues_.size();
+  report_.position_error_m = any_awake ? std::nan("") : 0.0;
   for (int part = 0; any_awake && part < report_.parts && !report_.held; ++part)
   {
     const double from = static_cast<double>(part) / report_.parts;
@@ -45,6 +47,7 @@ const StepReport& Scene::Impl::step()
       forTets([](TissueElasticity& tets) { tets.restore(); });
       stop();
       forgetPast();
+      reportEnd();
       report_.held = true;
     }
   }
@@ -58,12 +61,18 @@ const StepReport& Scene::Impl::step()
   return report_;
 }
 
-/** Wall time the step's minimisation still has, s. */
-double Scene::Impl::timeLeft() const
+/** Wall time from the step's beginning to the end of its last minimisation, s. */
+std::optional<double> Scene::Impl::wholeBudget() const
 {
   return config_.solver.budget_ms
-             ? 1e-3 * *config_.solver.budget_ms - finish_s_ - step_timer_.seconds()
-             : std::numeric_limits<double>::infinity();
+             ? std::optional<double>(1e-3 * *config_.solver.budget_ms - finish_s_)
+             : std::nullopt;
+}
+
+/** Wall time the running part of the step still has, s. */
+double Scene::Impl::timeLeft() const
+{
+  return budget_.left(step_timer_.seconds());
 }
 
 /** Moves on through the part [from, to] of the step, halving it as often as needed. */
@@ -75,6 +84,7 @@ bool Scene::Impl::advance(double from, double to, int depth)
   saved.acceleration = acceleration_;
   if (minimise(from, to))
   {
+    reportEnd();
     return true;
   }
   x_ = saved.x;
@@ -94,6 +104,7 @@ bool Scene::Impl::advance(double from, double to, int depth)
 bool Scene::Impl::minimise(double from, double to)
 {
   const double h = (to - from) * config_.time_step_s;
+  budget_.beginPart(from, to, step_timer_.seconds());
   terms_.clear();
   terms_.push_back(gravity_.get());
   before_ = x_;
@@ -153,7 +164,8 @@ bool Scene::Impl::minimise(double from, double to)
   // Where no time is left, halves of the step would only make it later.
   const bool far = !newton.converged && newton.residual > failed;
   unfinished |= far && (newton.out_of_time || timeLeft() <= 0.0);
-  report_.out_of_time |= unfinished;
+  newton.out_of_time |= unfinished;
+  end_ = newton;
   unfinished |= far && was_held_;  // to be held again would not bring it on
   if (!newton.finite || (far && !unfinished))
   {
@@ -212,11 +224,16 @@ NewtonReport Scene::Impl::descend(Points* other)
   report_.ms.solve += 1e3 * newton.linear_s;
   report_.newton_iterations += newton.iterations;
   report_.linear_iterations += newton.linear_iterations;
-  report_.residual = newton.residual;
-  report_.converged = newton.converged;
-  report_.out_of_time = newton.out_of_time;
-  report_.position_error_m = newton.position_error_m;
   return newton;
+}
+
+/** Tells how the last minimisation ended; of a step in parts, how the worst of them did. */
+void Scene::Impl::reportEnd()
+{
+  report_.residual = std::max(end_.residual, report_.residual);  // no number stays none
+  report_.converged &= end_.converged;
+  report_.out_of_time |= end_.out_of_time;
+  report_.position_error_m = std::fmax(report_.position_error_m, end_.position_error_m);
 }
 
 /** A step left far from its end must not add energy: the potential there is at most that of a body

@@ -52,7 +52,7 @@ const Section<MaterialKeys>& materialSection()
               "model", &MaterialKeys::model,
               maybe(materialModel(),
                     "the preset's, else " + materialModel().show(MaterialConfig{}.model), false),
-              "Strain energy; docs/methods.md has the formulas.")
+              "Strain energy, or springs; docs/methods.md has the formulas.")
           .optional("preset", &MaterialKeys::preset, maybe(text(), "none", false),
                     "Name of an entry of the materials file.")
           .optional("young_modulus_pa", &MaterialKeys::young_modulus_pa, orPreset(youngModulus()),
@@ -71,11 +71,11 @@ const Section<MaterialKeys>& materialSection()
           .optional("stiffness_damping_s", &MaterialKeys::stiffness_damping_s,
                     maybe(stiffnessDamping(), "the preset's, else 0", false),
                     "Stress against a rate of strain, in the stiffness at small strain; rigid "
-                    "motion goes on. Not for membranes.")
+                    "motion goes on. Not for membranes, nor for model mass_spring.")
           .optional("relaxation", &MaterialKeys::relaxation,
                     maybe(relaxation(), "the preset's, else []", false),
                     "What of its stress is lost with time; Young's modulus is what stays. Not for "
-                    "membranes.");
+                    "membranes, nor for model mass_spring.");
   return section;
 }
 
@@ -135,7 +135,8 @@ Kind<MaterialModel> materialModel()
                                 {"exponential", MaterialModel::exponential},
                                 {"corotated", MaterialModel::corotated},
                                 {"st_venant_kirchhoff", MaterialModel::st_venant_kirchhoff},
-                                {"linear", MaterialModel::linear}});
+                                {"linear", MaterialModel::linear},
+                                {"mass_spring", MaterialModel::mass_spring}});
 }
 
 void checkModel(const Item& item, MaterialModel model, double poisson_ratio,

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "element_choice.h"
 #include "schema_sections.h"
 #include "soft_tissue_sim/field/distance_field.h"
@@ -133,6 +135,32 @@ void checkRegions(const Item& item, TissueConfig& tissue)
   }
 }
 
+bool hasSprings(const TissueConfig& tissue)
+{
+  return tissue.material.model == MaterialModel::mass_spring ||
+         std::any_of(tissue.regions.begin(), tissue.regions.end(), [](const RegionConfig& region) {
+           return region.model == MaterialModel::mass_spring;
+         });
+}
+
+/** Springs join the vertices of a mesh, and have neither strain nor its rate. */
+void checkSprings(const Item& item, const TissueConfig& tissue)
+{
+  if (!hasSprings(tissue))
+  {
+    return;
+  }
+  if (tissue.element != ElementKind::tet4)
+  {
+    item.at("element").rejectValue("must be tet4 with model mass_spring");
+  }
+  if (!tissue.material.relaxation.empty() || tissue.material.stiffness_damping_s > 0.0)
+  {
+    item.at("material")
+        .reject("has relaxation or stiffness_damping_s, which model mass_spring doesn't take");
+  }
+}
+
 /** Keys that tissues and membranes share, up to the material. */
 template <typename Body>
 Section<Body>& addPlace(Section<Body>& section, const std::string& mesh)
@@ -177,7 +205,10 @@ const Section<TissueConfig>& tissueSection()
     addHolds(keys);
     keys.optional("field", &TissueConfig::field, mapOf(fieldSection()),
                   "Its distance field; marched only if the tissue has a contact.")
-        .finally(checkRegions);
+        .finally([](const Item& item, TissueConfig& tissue) {
+          checkRegions(item, tissue);
+          checkSprings(item, tissue);
+        });
     return keys;
   }();
   return section;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bodies.h"
+#include "soft_tissue_sim/energy/mass_spring.h"
 #include "soft_tissue_sim/energy/nodal_pressure_elasticity.h"
 #include "soft_tissue_sim/energy/quadratic_tet_elasticity.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
@@ -24,6 +25,11 @@ std::vector<T> ofElements(const std::vector<T>& all, const std::vector<Index>& e
   return some;
 }
 
+TetMesh ofElements(const TetMesh& all, const std::vector<Index>& elements)
+{
+  return {all.nodes, ofElements(all.tets, elements), ofElements(all.tags, elements)};
+}
+
 std::unique_ptr<Elasticity> elasticityOf(const TissueModel& model, MaterialModel law,
                                          const std::vector<Index>& elements, Index first_node)
 {
@@ -35,13 +41,25 @@ std::unique_ptr<Elasticity> elasticityOf(const TissueModel& model, MaterialModel
                                    ofElements(all.tags, elements)};
     return std::make_unique<QuadraticTetElasticity>(mesh, law, stiffness, first_node);
   }
-  const TetMesh& all = model.info.rest;
-  const TetMesh mesh = {all.nodes, ofElements(all.tets, elements), ofElements(all.tags, elements)};
+  const TetMesh mesh = ofElements(model.info.rest, elements);
   if (model.element == ElementKind::tet4_anp)
   {
     return std::make_unique<NodalPressureElasticity>(mesh, law, stiffness, first_node);
   }
   return std::make_unique<TetElasticity>(mesh, law, stiffness, first_node);
+}
+
+std::vector<Index> elementsOf(const TissueModel& model, MaterialModel law)
+{
+  std::vector<Index> elements;
+  for (std::size_t k = 0; k < model.laws.size(); ++k)
+  {
+    if (model.laws[k] == law)
+    {
+      elements.push_back(static_cast<Index>(k));
+    }
+  }
+  return elements;
 }
 }  // namespace
 
@@ -50,25 +68,35 @@ TissueElasticity::TissueElasticity(const TissueModel& model, const ViscosityPara
 {
   for (const MaterialModel law : kMaterialModels)
   {
-    Part part;
-    for (std::size_t k = 0; k < model.laws.size(); ++k)
+    const std::vector<Index> elements = elementsOf(model, law);
+    if (!elements.empty())
     {
-      if (model.laws[k] == law)
-      {
-        part.elements.push_back(static_cast<Index>(k));
-      }
-    }
-    if (!part.elements.empty())
-    {
-      part.energy = elasticityOf(model, law, part.elements, first_node);
+      Elasticity& energy = addPart(elasticityOf(model, law, elements, first_node), elements);
       if (!viscosity.none())
       {
-        part.viscosity = std::make_unique<Viscosity>(
-            *part.energy, ofElements(model.stiffness, part.elements), viscosity);
+        parts_.back().viscosity =
+            std::make_unique<Viscosity>(energy, ofElements(model.stiffness, elements), viscosity);
       }
-      parts_.push_back(std::move(part));
     }
   }
+  const std::vector<Index> elements = elementsOf(model, MaterialModel::mass_spring);
+  if (!elements.empty())
+  {
+    addPart(std::make_unique<MassSpring>(ofElements(model.info.rest, elements),
+                                         ofElements(model.stiffness, elements), first_node),
+            elements);
+  }
+}
+
+template <typename Energy>
+Energy& TissueElasticity::addPart(std::unique_ptr<Energy> energy, std::vector<Index> elements)
+{
+  Energy& added = *energy;
+  parts_.emplace_back();
+  parts_.back().energy = std::move(energy);
+  parts_.back().measures = &added;
+  parts_.back().elements = std::move(elements);
+  return added;
 }
 
 void TissueElasticity::addTerms(std::vector<EnergyTerm*>& terms) const
@@ -154,10 +182,10 @@ void TissueElasticity::addTo(StateHash& hash) const
 
 double TissueElasticity::minDetF(const Points& x) const
 {
-  double smallest = parts_[0].energy->minDetF(x);
+  double smallest = parts_[0].measures->minDetF(x);
   for (std::size_t k = 1; k < parts_.size(); ++k)
   {
-    smallest = std::min(smallest, parts_[k].energy->minDetF(x));
+    smallest = std::min(smallest, parts_[k].measures->minDetF(x));
   }
   return smallest;
 }
@@ -166,12 +194,12 @@ void TissueElasticity::vonMises(const Points& x, std::vector<float>& stress)
 {
   if (parts_.size() == 1)
   {
-    parts_[0].energy->vonMises(x, stress);
+    parts_[0].measures->vonMises(x, stress);
     return;
   }
   for (Part& part : parts_)
   {
-    part.energy->vonMises(x, part.stress);
+    part.measures->vonMises(x, part.stress);
     const std::size_t each = part.stress.size() / part.elements.size();
     stress.resize(std::max(stress.size(), each * (part.elements.back() + 1)));
     for (std::size_t k = 0; k < part.elements.size(); ++k)

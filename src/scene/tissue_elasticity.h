@@ -11,7 +11,7 @@ namespace soft_tissue
 {
 struct TissueModel;
 
-/** Elasticity of a tissue: a term for each of the laws its elements have, and its viscosity. */
+/** Elasticity of a tissue: a term for each of the models its elements have, and its viscosity. */
 class TissueElasticity
 {
  public:
@@ -43,15 +43,19 @@ class TissueElasticity
   void vonMises(const Points& x, std::vector<float>& stress);
 
  private:
-  /** The elements of one law. */
+  /** The elements of one model. */
   struct Part
   {
-    std::unique_ptr<Elasticity> energy;
-    std::unique_ptr<Viscosity> viscosity;  ///< null: none
-    std::vector<double> saved;             ///< its memory
-    std::vector<Index> elements;           ///< their numbers in the tissue, ascending
+    std::unique_ptr<EnergyTerm> energy;
+    DeformationMeasures* measures = nullptr;  ///< the energy, as what it is too
+    std::unique_ptr<Viscosity> viscosity;     ///< null: none
+    std::vector<double> saved;                ///< its memory
+    std::vector<Index> elements;              ///< their numbers in the tissue, ascending
     std::vector<float> stress;
   };
+  /** @return the energy */
+  template <typename Energy>
+  Energy& addPart(std::unique_ptr<Energy> energy, std::vector<Index> elements);
   template <typename Visit>
   void forViscous(const Visit& visit);
 

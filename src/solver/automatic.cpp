@@ -55,6 +55,8 @@ class Automatic : public LinearSolver
     }
   }
 
+  bool isUneven() const override { return factors_ ? cholesky_.isUneven() : pcg_->isUneven(); }
+
  private:
   bool outweighsFactors(int iterations)
   {

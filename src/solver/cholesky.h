@@ -25,6 +25,7 @@ class Cholesky : public LinearSolver
   void forget() override { iterative_->forget(); }
   // Which order the unknowns are taken in depends on the matrix alone.
   void exchange(StateArchive& archive) override { iterative_->exchange(archive); }
+  bool isUneven() const override { return iterative_->isUneven(); }
 
   /** Multiplications that factoring a matrix of this pattern takes. */
   double workOf(const BlockMatrix& a);

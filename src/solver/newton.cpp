@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "node_vectors.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/base/timer.h"
 
@@ -10,7 +11,6 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 512;  // nodes per parallel piece
 constexpr double kSufficientDecrease = 1e-4;
 constexpr int kMaxBacktracks = 40;
 /** Rounding errors of a potential, as a share of the sum of its terms: materials subtract terms of
@@ -34,32 +34,13 @@ constexpr double kServesAgain = 0.1;
 constexpr double kLeads = 0.5;
 /** Linear iterations that are done however little time there is. */
 constexpr int kFewestLinear = 8;
+/** Accuracy of a linear solve that is believed when it says how far the end is: what a loose one
+ * leaves may be forces that soft parts feel, beside stiff ones that hide them. */
+constexpr double kBelieved = 1e-6;
+/** Ends that are believed to be as near as loose solves say, in a row, because such ends were. */
+constexpr int kMostTrusted = 63;
 /** Moves this far below the size of the coordinates are rounding errors. */
 constexpr double kUnresolved = 1e-12;
-
-double dot(const Points& a, const Points& b)
-{
-  return parallelSum(static_cast<Index>(a.size()), kGrain, [&](Index begin, Index end) {
-    double sum = 0.0;
-    for (Index i = begin; i < end; ++i)
-    {
-      sum += a[i].dot(b[i]);
-    }
-    return sum;
-  });
-}
-
-/** Largest coordinate in size; NaN where one is. */
-double largest(const Points& points)
-{
-  double size = 0.0;
-  for (const Vec3& p : points)
-  {
-    const double here = p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    size = here > size || std::isnan(here) ? here : size;
-  }
-  return size;
-}
 }  // namespace
 
 NewtonSolver::NewtonSolver(const Adjacency& neighbours, const std::vector<Index>& fixed,
@@ -93,7 +74,7 @@ void NewtonSolver::restoreFixed(const Points& from, Points& to) const
 /** sum += part, part = 0; returns |part|^2. */
 double NewtonSolver::moveInto(Points& sum, Points& part) const
 {
-  return parallelSum(static_cast<Index>(part.size()), kGrain, [&](Index begin, Index end) {
+  return parallelSum(static_cast<Index>(part.size()), kNodeGrain, [&](Index begin, Index end) {
     double squared = 0.0;
     for (Index i = begin; i < end; ++i)
     {
@@ -219,6 +200,32 @@ LinearReport NewtonSolver::solveAnew(const std::vector<EnergyTerm*>& terms, cons
   return solve(accuracy, report);
 }
 
+/** Whether the forces left would move no node by more than `within`, m, by the second derivatives
+ * at hand, where a loose solve says so. That is looked at closely where stiff parts may hide soft
+ * ones, and elsewhere now and then: the more rarely the more often it was right. */
+bool NewtonSolver::endsWithin(double within, NewtonReport& report)
+{
+  if (trusted_ > 0 && !linear_->isUneven())
+  {
+    --trusted_;
+    return true;
+  }
+  takeDescent();
+  const LinearReport linear = solve(kBelieved, report);
+  const bool near = !linear.indefinite && !linear.cut_short && largest(direction_) <= within;
+  trust_ = near ? std::min(2 * trust_ + 1, kMostTrusted) : 0;
+  trusted_ = trust_;
+  return near;
+}
+
+void NewtonSolver::takeDescent()
+{
+  for (std::size_t i = 0; i < gradient_.size(); ++i)
+  {
+    descent_[i] = -gradient_[i];
+  }
+}
+
 /** Goes to trial_ and trial_gradient_. */
 NewtonSolver::State NewtonSolver::tryStep(const std::vector<EnergyTerm*>& terms, const Points& x,
                                           double step, std::vector<double>& seconds)
@@ -329,10 +336,7 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
       break;
     }
     ++report.iterations;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      descent_[i] = -gradient_[i];
-    }
+    takeDescent();
     // More than the tolerance asked for is lost on this iteration.
     accuracy = std::max({accuracy, 1e-10, 0.3 * options.tolerance / state.residual});
     accuracy = std::min(accuracy, 0.1);
@@ -343,7 +347,9 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
     // What was cut short has not seen the slow motions.
     const double reach = longest / state.force;
     reach_ = linear.cut_short && reach_ > reach ? reach_ : reach;
-    settled = anew && !linear.indefinite && !linear.cut_short && longest <= kUnresolved * size;
+    const double unresolved = kUnresolved * size;
+    settled = anew && !linear.indefinite && !linear.cut_short && longest <= unresolved &&
+              endsWithin(unresolved, report);
     if (settled)
     {
       break;
@@ -363,7 +369,9 @@ NewtonReport NewtonSolver::minimise(const std::vector<EnergyTerm*>& terms,
       x.swap(trial_);
       gradient_.swap(trial_gradient_);
       state = next;
-      settled = step == 1.0 && left * longest <= options.settled && !linear.cut_short;
+      settled = step == 1.0 && state.residual > options.tolerance &&
+                left * longest <= options.settled && !linear.cut_short &&
+                endsWithin(options.settled, report);
       accuracy = left * left;
     }
     directing_s_ = timer_.seconds() - begun_s - (anew ? assembly_s_ : 0.0);

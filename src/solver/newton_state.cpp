@@ -10,6 +10,8 @@ void NewtonSolver::exchange(StateArchive& archive, const std::vector<EnergyTerm*
   archive.value(reach_);
   archive.value(matrix_serves_);
   archive.value(matrix_leads_);
+  archive.value(trust_);
+  archive.value(trusted_);
   linear_->exchange(archive);
   if (!matrix_serves_ && !matrix_leads_)
   {

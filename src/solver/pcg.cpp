@@ -18,7 +18,8 @@ constexpr Index kGrain = 256;        // rows of a matrix
 constexpr Index kVectorGrain = 512;  // nodes of a vector
 constexpr Index kGroupGrain = 10;    // groups of nodes
 constexpr Index kCoarseGrain = 48;   // rows of the groups' matrix
-/** Answers no more exact than this are found in single precision. */
+/** Answers no more exact than this are found in single precision, unless some nodes are so stiff
+ * that rounded positions of theirs make forces that the soft ones' drown in. */
 constexpr double kSingleTolerance = 1e-3;
 
 /** Conjugate gradients in one precision, preconditioned by the inverse diagonal blocks plus the
@@ -235,7 +236,7 @@ class Pcg : public LinearSolver
 
   LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) override
   {
-    return tolerance >= kSingleTolerance
+    return tolerance >= kSingleTolerance && !groups_.isUneven()
                ? single_.solve(*matrix_, b, tolerance, most_iterations, d)
                : double_.solve(*matrix_, b, tolerance, most_iterations, d);
   }
@@ -251,6 +252,8 @@ class Pcg : public LinearSolver
       double_.setGroups(groups_);
     }
   }
+
+  bool isUneven() const override { return groups_.isUneven(); }
 
  private:
   const BlockMatrix* matrix_ = nullptr;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 
 #include "soft_tissue_sim/base/union_find.h"
 
@@ -19,13 +20,39 @@ constexpr double kOutdated = 0.5;
 constexpr double kOtherwise = 2.0;
 /** Share of the largest diagonal number added to all: nodes in a line have no moment of inertia. */
 constexpr double kShift = 1e-6;
+/** A coupling weaker than this share of what holds one of its nodes parts what is stiff from what
+ * is soft; a body with more parts than this is taken as one. */
+constexpr double kWeak = 1e-3;
+constexpr std::size_t kMostParts = 8;
 
 using Matrix = Eigen::MatrixXd;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/** Nodes that blocks of A's pattern couple to others, which the fixed ones are not: body by body.
+/** How strongly a node is held. */
+double holdOf(const BlockMatrix& a, Index row)
+{
+  return Eigen::Map<const Mat3>(a.block(a.diagonal(row))).norm();
+}
+
+/** Whether blocks of A's pattern couple a node to others. */
+bool isCoupled(const BlockMatrix& a, Index row)
+{
+  for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
+  {
+    const Index upper = k < a.diagonal(row) ? a.mirror(k) : k;
+    if (k != a.diagonal(row) && Eigen::Map<const Mat3>(a.block(upper)).squaredNorm() > 0.0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/**
+ * Nodes that blocks of A's pattern couple to others, which the fixed ones are not: body by body.
+ * @param weak  couplings weaker than this share of what holds one of their nodes join nothing
  */
-std::vector<std::vector<Index>> coupledNodes(const BlockMatrix& a)
+std::vector<std::vector<Index>> coupledNodes(const BlockMatrix& a, double weak)
 {
   UnionFind bodies(a.rows());
   std::vector<char> coupled(a.rows(), 0);
@@ -33,10 +60,15 @@ std::vector<std::vector<Index>> coupledNodes(const BlockMatrix& a)
   {
     for (Index k = a.diagonal(row) + 1; k < a.offsets()[row + 1]; ++k)
     {
-      if (std::any_of(a.block(k), a.block(k) + 9, [](double v) { return v != 0.0; }))
+      const Index column = a.columns()[k];
+      const double strength = Eigen::Map<const Mat3>(a.block(k)).norm();
+      if (strength > 0.0)
       {
-        coupled[row] = coupled[a.columns()[k]] = 1;
-        bodies.join(row, a.columns()[k]);
+        coupled[row] = coupled[column] = 1;
+        if (strength >= weak * std::max(holdOf(a, row), holdOf(a, column)))
+        {
+          bodies.join(row, column);
+        }
       }
     }
   }
@@ -79,6 +111,15 @@ std::vector<Index> groupCounts(const std::vector<std::vector<Index>>& bodies)
     }
   }
   return counts;
+}
+
+/** Bodies, in parts where some of it is much stiffer: that moves like a rigid body, and neighbours
+ * would hardly move it. */
+std::vector<std::vector<Index>> stiffAndSoftParts(const BlockMatrix& a)
+{
+  std::vector<std::vector<Index>> bodies = coupledNodes(a, 0.0);
+  std::vector<std::vector<Index>> parts = coupledNodes(a, kWeak);
+  return parts.size() > bodies.size() + kMostParts ? bodies : parts;
 }
 
 double couplingOf(const BlockMatrix& a)
@@ -146,6 +187,7 @@ void RigidGroups::exchange(StateArchive& archive)
   archive.list(arms_);
   archive.list(inverse_);
   archive.value(coupling_);
+  archive.value(contrast_);
   archive.list(built_at_);
 }
 
@@ -153,7 +195,7 @@ void RigidGroups::makeGroups(const BlockMatrix& a, const Points& x)
 {
   offsets_ = {0};
   nodes_.clear();
-  std::vector<std::vector<Index>> bodies = coupledNodes(a);
+  std::vector<std::vector<Index>> bodies = stiffAndSoftParts(a);
   const std::vector<Index> counts = groupCounts(bodies);
   std::vector<Index> sizes;
   for (std::size_t k = 0; k < bodies.size(); ++k)
@@ -176,6 +218,27 @@ void RigidGroups::makeGroups(const BlockMatrix& a, const Points& x)
     }
     offsets_.push_back(end);
   }
+}
+
+void RigidGroups::measureContrast(const BlockMatrix& a)
+{
+  double most = 0.0, least = std::numeric_limits<double>::infinity();
+  for (Index row = 0; row < a.rows(); ++row)
+  {
+    // What is fixed, or in no element, has a row of the identity alone.
+    if (a.offsets()[row + 1] - a.offsets()[row] > 1 && isCoupled(a, row))
+    {
+      const double hold = holdOf(a, row);
+      most = std::max(most, hold);
+      least = std::min(least, hold);
+    }
+  }
+  contrast_ = most > least && least > 0.0 ? most / least : 1.0;
+}
+
+double RigidGroups::evenness() const
+{
+  return std::min(1.0, kMostEven / contrast_);
 }
 
 void RigidGroups::placeArms(const Points& x)
@@ -212,7 +275,7 @@ bool RigidGroups::outdated(const BlockMatrix& a, const Points& x) const
   }
   for (int g = 0; g < size(); ++g)
   {
-    const double far = kOutdated * sizes_[g];
+    const double far = kOutdated * evenness() * sizes_[g];
     for (Index i = offsets_[g]; i < offsets_[g + 1]; ++i)
     {
       if ((x[nodes_[i]] - built_at_[nodes_[i]]).squaredNorm() > far * far)
@@ -269,6 +332,7 @@ void RigidGroups::build(const BlockMatrix& a, const Points& x)
     makeGroups(a, x);
   }
   placeArms(x);
+  measureContrast(a);
   coupling_ = couplingOf(a);
   Matrix coarse = Matrix::Zero(6 * size(), 6 * size());
   const auto add = [&](Index row, Index column, const Mat3& b) {
@@ -299,7 +363,8 @@ void RigidGroups::build(const BlockMatrix& a, const Points& x)
   addOuter(a.outer(), coarse);
   if (size() > 0)
   {
-    coarse.diagonal().array() += kShift * coarse.diagonal().maxCoeff();
+    const double shift = kShift * evenness();
+    coarse.diagonal().array() += shift * coarse.diagonal().maxCoeff();
   }
   const Eigen::LLT<Matrix> factor(coarse);
   usable_ = size() == 0 || factor.info() == Eigen::Success;

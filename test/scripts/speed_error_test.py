@@ -42,6 +42,33 @@ class SpeedError(unittest.TestCase):
             for row in rows:
                 self.assertEqual((row["finite"], row["ended_so"]), ("1", "1"), row)
 
+    def test_features(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "features", "--out", folder, "--quick"], check=True, stdout=subprocess.DEVNULL)
+            path = os.path.join(folder, "features.csv")
+            with open(path) as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual(list(rows[0]), ["feature", "state", "threads", "ms", "ratio", "wall_ms", "wall_ratio",
+                                             "newton", "linear", "contacts", "held"])
+            features = {}
+            for row in rows:
+                features.setdefault(row["feature"], {})[row["state"]] = row
+                self.assertEqual(row["held"], "0", row)
+            self.assertGreaterEqual(len(features), 25)
+            for name, states in features.items():
+                self.assertIn("off", states, name)
+                self.assertEqual(states["off"]["ratio"], "1", name)
+                self.assertGreaterEqual(len(states), 2, name)
+                if "idle" in states:  # what is idle changes no iteration
+                    for key in ("newton", "linear", "contacts"):
+                        self.assertEqual(states["idle"][key], states["off"][key], name)
+            for name in ("contact with a tool", "octomap obstacle"):
+                self.assertGreater(float(features[name]["in use"]["contacts"]), 0.0, name)
+            # A body that sleeps does nothing.
+            self.assertEqual(features["sleep, at rest"]["in use"]["newton"], "0")
+            plot_speed_error.plot_features(plot_speed_error.read_features(path), os.path.join(folder, "features.png"))
+            self.assertGreater(os.path.getsize(os.path.join(folder, "features.png")), 1000)
+
     def test_contact(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "contact", "--out", folder, "--quick"], check=True, stdout=subprocess.DEVNULL)

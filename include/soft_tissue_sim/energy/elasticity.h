@@ -3,20 +3,17 @@
 #include <algorithm>
 #include <vector>
 
+#include "soft_tissue_sim/energy/deformation_measures.h"
 #include "soft_tissue_sim/energy/tet_term.h"
 
 namespace soft_tissue
 {
 /** Elastic energy of the tets of one body: what linear and quadratic ones have in common. */
-class Elasticity : public TetTerm
+class Elasticity : public TetTerm, public DeformationMeasures
 {
  public:
-  /** Smallest det F of all tets: 1 at rest, <= 0 when one is inverted. */
-  double minDetF(const Points& x);
-
-  /** Equivalent (von Mises) Cauchy stress, Pa: one per linear tet, one per part of a quadratic
-   * one. */
-  void vonMises(const Points& x, std::vector<float>& stress);
+  double minDetF(const Points& x) override;
+  void vonMises(const Points& x, std::vector<float>& stress) override;
 
  protected:
   /**

@@ -4,8 +4,8 @@
 
 namespace soft_tissue
 {
-/** Constitutive laws. Each is one struct in src/energy, one line in materials.h there, and one word
- * of the scene file. */
+/** What holds tets together. Constitutive laws are one struct each in src/energy and one line in
+ * materials.h there; each model is one word of the scene file. */
 enum class MaterialModel
 {
   neo_hookean,          ///< stable neo-Hookean. Source: [Smith2018] eq. 14
@@ -14,16 +14,21 @@ enum class MaterialModel
   corotated,            ///< linear in the polar stretch. Source: [Sifakis2012] section 3.4
   st_venant_kirchhoff,  ///< linear in Green's strain
   linear,               ///< of small strains: it takes rotations for strains
+  mass_spring,          ///< no law of strain: springs along edges, see MassSpring
 };
 
+/** The constitutive laws: functions of the deformation gradient. */
 constexpr MaterialModel kMaterialModels[] = {
     MaterialModel::neo_hookean, MaterialModel::neo_hookean_log,     MaterialModel::exponential,
     MaterialModel::corotated,   MaterialModel::st_venant_kirchhoff, MaterialModel::linear};
 
-/** The least Poisson's ratio a law takes: below it log(det F)^2 would pull tets to nothing. */
+/** The least Poisson's ratio a model takes: below it log(det F)^2 would pull tets to nothing, and
+ * springs alone have 1/4. */
 constexpr double leastPoissonRatio(MaterialModel model)
 {
-  return model == MaterialModel::neo_hookean_log ? 0.0 : -1.0;
+  return model == MaterialModel::neo_hookean_log ? 0.0
+         : model == MaterialModel::mass_spring   ? 0.25
+                                                 : -1.0;
 }
 
 /** Below this det F the neo_hookean_log law goes on quadratically in det F. */

@@ -48,6 +48,10 @@ class LinearSolver
   /** Writes, or reads, what of earlier matrices the next solves depend on; the matrix itself is
    * set after that. */
   virtual void exchange(StateArchive& archive) = 0;
+
+  /** Whether some nodes are held so much more strongly than others that forces on these are hidden
+   * beside those on them: an answer is then as good as its tolerance for the strong ones only. */
+  virtual bool isUneven() const = 0;
 };
 
 std::unique_ptr<LinearSolver> makePcg();

@@ -86,6 +86,7 @@ class NewtonSolver
   {
     forgetMatrix();
     linear_->forget();
+    trust_ = trusted_ = 0;
   }
 
   /**
@@ -111,7 +112,9 @@ class NewtonSolver
   double moveInto(Points& sum, Points& part) const;
   void assemble(const std::vector<EnergyTerm*>& terms, const Points& x, Curvature curvature,
                 NewtonReport& report, std::vector<double>& seconds);
+  void takeDescent();
   LinearReport solve(double accuracy, NewtonReport& report);
+  bool endsWithin(double within, NewtonReport& report);
   int affordableLinearIterations() const;
   LinearReport solveAnew(const std::vector<EnergyTerm*>& terms, const Points& x, double residual,
                          double accuracy, NewtonReport& report, std::vector<double>& seconds);
@@ -128,7 +131,9 @@ class NewtonSolver
   bool matrix_serves_ = false;  ///< hessian_ is still good enough for a direction
   bool matrix_leads_ = false;   ///< not quite, but it brought the last iteration forward
   std::vector<EnergyTerm*> matrix_terms_;
-  Points matrix_at_;            ///< where nodes were when hessian_ was made
+  Points matrix_at_;  ///< where nodes were when hessian_ was made
+  int trust_ = 0;     ///< ends in a row that are taken for near without a look, since the last one
+  int trusted_ = 0;   ///< those that are left of them
   double indefinite_at_ = 0.0;  ///< the residual where exact curvature last failed
   /** Farthest move of a node over the norm of the forces, of the last solve, m/N. */
   double reach_ = std::nan("");

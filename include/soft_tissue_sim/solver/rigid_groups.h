@@ -11,7 +11,8 @@ namespace soft_tissue
 /**
  * The coarse level of a preconditioner for elastic bodies: nearby nodes in groups, each of which
  * may move like a rigid body. Those are the slow motions that neighbours alone take long to agree
- * on. For matrices of one pattern, with the same fixed nodes.
+ * on. What is much stiffer than the rest of its body is a group, or several, by itself. For
+ * matrices of one pattern, with the same fixed nodes.
  */
 class RigidGroups
 {
@@ -29,6 +30,12 @@ class RigidGroups
   /** Writes, or reads, the groups and the level that there are. */
   void exchange(StateArchive& archive);
 
+  /** How many times more strongly the best held node is held than the worst, among those that
+   * others couple to. */
+  double contrast() const { return contrast_; }
+  /** Whether that takes more than one material. */
+  bool isUneven() const { return contrast_ > kMostEven; }
+
   int size() const { return static_cast<int>(offsets_.size()) - 1; }  ///< groups; 0 without level
   /** Nodes of group g: nodes()[offsets()[g]] ... nodes()[offsets()[g + 1] - 1]. */
   const std::vector<Index>& offsets() const { return offsets_; }
@@ -41,9 +48,13 @@ class RigidGroups
   const std::vector<double>& inverse() const { return inverse_; }
 
  private:
+  static constexpr double kMostEven = 1e3;  ///< contrast of one material at most
+
   void makeGroups(const BlockMatrix& a, const Points& x);
+  void measureContrast(const BlockMatrix& a);
   void placeArms(const Points& x);
   void addOuter(const OuterProducts& outer, Eigen::MatrixXd& coarse) const;
+  double evenness() const;
 
   bool usable_ = false;  ///< the coarse matrix was positive definite, or there are no groups
   std::vector<Index> offsets_ = {0};
@@ -52,6 +63,7 @@ class RigidGroups
   std::vector<double> sizes_;  ///< of groups, m
   std::vector<double> arms_;
   std::vector<double> inverse_;
+  double contrast_ = 1.0;
   double coupling_ = 0.0;  ///< how strong couplings were when the coarse matrix was made, N/m
   Points built_at_;
 };

@@ -105,7 +105,7 @@ std::vector<BadScene> badNames()
        "tissues[0].field.refresh = never, must be one of carried, lazy, full"},
       {"{young_modulus_pa: 3000,", "{model: jelly, young_modulus_pa: 3000,",
        "tissues[0].material.model = jelly, must be one of neo_hookean, neo_hookean_log, "
-       "exponential, corotated, st_venant_kirchhoff, linear"},
+       "exponential, corotated, st_venant_kirchhoff, linear, mass_spring"},
       {"length_unit: m}\n    material: {young_modulus_pa: 3000",
        "length_unit: inch}\n    material: "
        "{young_modulus_pa: 3000",

@@ -126,6 +126,39 @@ TEST(StepBudget, AStepThatFailsWithoutTimeIsNotHalved)
   EXPECT_GT(halvings, 0) << "it would be halved if there was time";
 }
 
+// However little time, each part of a step that a fast tool needs does something, and no part's end
+// is hidden by a better one after it.
+TEST(StepBudget, StepsInPartsWithoutTimeDoOneIterationInEachAndTellTheWorst)
+{
+  Scene free(lobeUnderBall(std::nullopt)), hurried(lobeUnderBall(kNoTime));
+  const Pose start = free.config().tools[0].initial_pose.toPose();
+  int most_parts = 1;
+  for (int step = 0; step < 300; ++step)
+  {
+    const Pose goal = raised(start, step == 0 ? 0.06 : -0.0065);  // all the way down in one step
+    for (Scene* scene : {&free, &hurried})
+    {
+      scene->setToolTarget(0, goal);
+      scene->step();
+    }
+    const StepReport report = snapshotOf(hurried).report;
+    EXPECT_LE(report.newton_iterations, report.parts) << step;
+    EXPECT_EQ(report.halvings, 0) << step;
+    EXPECT_FALSE(report.held) << step;
+    EXPECT_EQ(report.out_of_time, !report.converged) << step;
+    if (report.parts > 1)
+    {
+      most_parts = report.parts;
+      EXPECT_TRUE(report.out_of_time);
+    }
+  }
+  EXPECT_GE(most_parts, 2);
+  const double force = snapshotOf(free).tools[0].wrench_W.force.z();
+  EXPECT_GT(force, 0.1);
+  // Where edges enter and leave contact, other iterates end in slightly other states.
+  EXPECT_NEAR(snapshotOf(hurried).tools[0].wrench_W.force.z(), force, 1e-2 * force);
+}
+
 class HurriedSteps : public ::testing::TestWithParam<Stepper>
 {};
 

@@ -236,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(
          "presets[0].name = w d, must be a name: a letter, then letters, digits or _"},
         {"    model: corotated\n", "",
          "presets[1].model: missing, must be a word: neo_hookean, neo_hookean_log, exponential, "
-         "corotated, st_venant_kirchhoff, linear"},
+         "corotated, st_venant_kirchhoff, linear, mass_spring"},
         {"    density_source: nobody 1905\n", "",
          "presets[1].density_source: missing, must be a text"},
         {"density_source: nobody 1905", "density_source: ''",

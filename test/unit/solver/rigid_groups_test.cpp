@@ -17,17 +17,27 @@ namespace
 {
 using namespace test;
 
-/** A bar held at one end, as stiff as its springs, on some ground to keep it from being singular.
- */
+/** A bar held at one end, on some ground to keep it from being singular; its other half may be
+ * stiffer. */
 struct Bar
 {
+  static constexpr double kMiddle = 1.5;
   TetMesh mesh = makeBox({3, 3, 30}, {0.3, 0.3, 3.0});
   BlockMatrix matrix = BlockMatrix(nodeNeighbours(Index(mesh.nodes.size()), mesh.tets));
   std::vector<Index> fixed;
 
-  Bar()
+  explicit Bar(double stiffer = 1.0)
   {
     std::vector<TetStiffnessParameters> stiffness(mesh.tets.size(), {1000.0, 0.4});
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    {
+      double sum = 0.0;
+      for (const Index node : mesh.tets[t])
+      {
+        sum += mesh.nodes[node].z();
+      }
+      stiffness[t].young_modulus *= sum > 4.0 * kMiddle ? stiffer : 1.0;
+    }
     TetElasticity elasticity(mesh, MaterialModel::corotated, stiffness, 0);
     elasticity.addHessian(mesh.nodes, Curvature::positive, matrix);
     for (Index i = 0; i < matrix.rows(); ++i)
@@ -97,6 +107,59 @@ TEST(Pcg, RigidGroupsLeaveFixedNodesWhereTheyAre)
       EXPECT_EQ(d[node], Vec3::Zero());
     }
   }
+}
+
+TEST(Pcg, RigidGroupsMoveAStiffPartOnASoftOne)
+{
+  const Bar even;
+  const Points b = even.load();
+  for (const double tolerance : {1e-2, 1e-8})
+  {
+    Points d;
+    const int alike =
+        solveWith(*makePcg(), even.matrix, b, even.mesh.nodes, tolerance, d).iterations;
+    for (const double stiffer : {1e3, 1e6})
+    {
+      const Bar bar(stiffer);
+      const LinearReport report =
+          solveWith(*makePcg(), bar.matrix, b, bar.mesh.nodes, tolerance, d);
+      std::printf("  %g times stiffer, to %g: %d iterations, alike %d\n", stiffer, tolerance,
+                  report.iterations, alike);
+      EXPECT_LE(report.iterations, 2 * alike);
+      const Eigen::MatrixXd matrix = dense(bar.matrix);
+      const double rounding = 1e-16 * matrix.norm() * flat(d).norm();
+      EXPECT_LT((flat(b) - matrix * flat(d)).norm(), 1.01 * tolerance * flat(b).norm() + rounding);
+      const Eigen::VectorXd exact = matrix.ldlt().solve(flat(b));
+      EXPECT_LT((flat(d) - exact).norm(), (tolerance < 1e-3 ? 1e-4 : 0.1) * exact.norm());
+    }
+  }
+}
+
+TEST(RigidGroups, AreOfStiffNodesOrOfSoftOnes)
+{
+  const Bar even, bar(1e6);
+  RigidGroups alike, groups;
+  alike.build(even.matrix, even.mesh.nodes);
+  groups.build(bar.matrix, bar.mesh.nodes);
+  EXPECT_LT(alike.contrast(), 100.0);
+  EXPECT_GT(groups.contrast(), 1e5);
+  EXPECT_LT(groups.contrast(), 1e8);
+  const auto isStiff = [&](Index node) { return bar.mesh.nodes[node].z() > Bar::kMiddle - 1e-9; };
+  for (int g = 0; g < groups.size(); ++g)
+  {
+    for (Index i = groups.offsets()[g]; i < groups.offsets()[g + 1]; ++i)
+    {
+      EXPECT_EQ(isStiff(groups.nodes()[i]), isStiff(groups.nodes()[groups.offsets()[g]])) << g;
+    }
+  }
+  // Rigid motions of what is stiff have to be exact: a small turn makes others of them.
+  Points x = bar.mesh.nodes;
+  for (Vec3& p : x)
+  {
+    p.x() += 0.01 * p.z();
+  }
+  EXPECT_FALSE(alike.outdated(even.matrix, x));
+  EXPECT_TRUE(groups.outdated(bar.matrix, x));
 }
 
 TEST(RigidGroups, CoarseMatrixIsThatOfRigidMotions)
