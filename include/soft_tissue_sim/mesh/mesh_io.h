@@ -45,7 +45,8 @@ struct LoadedTriMesh
  * VTK XML .vtu (ASCII), TetGen .node/.ele, Medit .mesh, tetrahedral ASCII .ply.
  *
  * The format is told by the file's content, not its name. Left-handed tets are turned and counted
- * in the report.
+ * in the report. Quadratic tets of Gmsh and VTK files are read by their vertices; an Error if one
+ * has an edge that is not straight.
  * @param path             file; for TetGen either the .node or the .ele file
  * @param metres_per_unit  length of one file unit in metres, > 0
  * @throws Error naming the file, the line or record, and the reason
