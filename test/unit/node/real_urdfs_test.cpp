@@ -110,6 +110,61 @@ TEST_F(RealUrdfs, theManipulatorAndTheNeedleBecomeToolsOfAScene)
   EXPECT_FALSE(scene.step().held);
 }
 
+TEST_F(RealUrdfs, theManipulatorsJawsLiftAStripAndLetItGo)
+{
+  const std::string file = folder_.path() + "/scene.yaml";
+  std::ofstream(file) << R"(
+time_step_s: 0.005
+gravity_m_per_s2: [0, 0, 0]
+tissues:
+  - name: strip
+    mesh: {file: )" SOURCE_DIR R"(/test/ros/strip.msh, length_unit: m}
+    pose: {position_m: [-0.005, -0.003, 0.01]}
+    material: {young_modulus_pa: 20000, poisson_ratio: 0.4, density_kg_per_m3: 1000,
+               mass_damping_per_s: 20}
+tools:
+  - name: psm
+    shape: {urdf: {file: )"
+                      << tools_ << R"(psm/psm.urdf, frame: psm_tool_tip_link,
+                   links: [psm_tool_roll_link, psm_tool_pitch_link, psm_tool_gripper1_link,
+                           psm_tool_gripper2_link]}}
+    pose_source:
+      keyframes:
+        - {time_s: 0.1, position_m: [0, 0, 0.022], rotation_rpy_rad: [3.14159265358979, 0, 0]}
+        - {time_s: 0.3, position_m: [0, 0, 0.022], rotation_rpy_rad: [3.14159265358979, 0, 0]}
+        - {time_s: 0.7, position_m: [0, 0, 0.042], rotation_rpy_rad: [3.14159265358979, 0, 0]}
+    joint_source:
+      keyframes:
+        - {time_s: 0, values_rad_or_m: {psm_tool_gripper2_joint: 0.6}}
+        - {time_s: 0.3, values_rad_or_m: {psm_tool_gripper2_joint: 0.25}}
+        - {time_s: 0.8, values_rad_or_m: {psm_tool_gripper2_joint: 0.25}}
+        - {time_s: 1.0, values_rad_or_m: {psm_tool_gripper2_joint: 0.6}}
+contacts: [{between: [strip, psm], friction: 0.8}]
+)";
+  soft_tissue::Scene scene = buildScene(loadConfig(file));
+  soft_tissue::Snapshot snapshot;
+  const auto middleAt = [&](double time_s) {
+    while (scene.time() < time_s - 1e-9)
+    {
+      EXPECT_FALSE(scene.step().held);
+    }
+    scene.fillSnapshot(snapshot);
+    double sum = 0.0;
+    for (const Vec3& p : snapshot.tissues[0].positions)
+    {
+      sum += p.z();
+    }
+    return sum / static_cast<double>(snapshot.tissues[0].positions.size());
+  };
+  const double gripped = middleAt(0.3);
+  EXPECT_GT(snapshot.tools[0].parts[2].wrench_W.force.norm(), 0.05) << "one finger presses";
+  EXPECT_GT(snapshot.tools[0].parts[3].wrench_W.force.norm(), 0.05) << "and the other";
+  EXPECT_NEAR(middleAt(0.8) - gripped, 0.02, 5e-5);
+  middleAt(1.0);
+  EXPECT_TRUE(snapshot.tools[0].contacts.empty());
+  EXPECT_EQ(snapshot.tools[0].wrench_W.force, Vec3::Zero());
+}
+
 /** Puts the driver's folder into a package, by the name its URDF has for it or another. */
 class Driver : public RealUrdfs
 {
