@@ -128,6 +128,7 @@ class Scene::Impl
     std::size_t tissue = 0;  ///< or membrane
     std::size_t other = 0;   ///< index of the tool, the obstacle, or the other tissue
     std::size_t part = 0;    ///< of the tool
+    std::size_t named = 0;   ///< index of its ContactConfig
     std::unique_ptr<SurfacePoints> points;  ///< of a membrane too coarse for the other
     std::unique_ptr<ContactTerm> term;
     ToolContact* with_tool = nullptr;  ///< the term, as what it is

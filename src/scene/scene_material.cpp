@@ -178,9 +178,9 @@ void Scene::Impl::takeMaterial(std::size_t index)
   {
     drags_[i] = material.mass_damping_per_s * masses_[i];
   }
-  for (std::size_t k = 0; k < contacts_.size(); ++k)
+  for (const Contact& contact : contacts_)
   {
-    contacts_[k].term->setBaseStiffness(stiffnessOf(config_.contacts[k], contacts_[k]));
+    contact.term->setBaseStiffness(stiffnessOf(config_.contacts[contact.named], contact));
   }
   if (asleep_[index] != 0)
   {

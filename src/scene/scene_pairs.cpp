@@ -65,6 +65,7 @@ void Scene::Impl::addContact(std::size_t index)
 {
   const ContactConfig& config = config_.contacts[index];
   Contact contact;
+  contact.named = index;
   contact.tissue = find(tissue_info_, config.tissue);
   contact.max_penetration_m = config.max_penetration_m;
   if (find(config_.tools, config.other) < config_.tools.size())
@@ -96,6 +97,7 @@ void Scene::Impl::addToolContacts(const ContactConfig& config, const Contact& na
     contact.max_penetration_m = named.max_penetration_m;
     contact.other = index;
     contact.part = part;
+    contact.named = named.named;
     contact.size_m = shape.innerRadius();
     contact.refresh = refreshes(field);
     auto term = std::make_unique<ToolContact>(
@@ -156,7 +158,7 @@ double Scene::Impl::stiffnessOf(const ContactConfig& config, const Contact& cont
   }
   if (find(tissue_info_, config.other) == tissue_info_.size())
   {
-    return stiffnessAgainstRigid(contact);
+    return stiffnessAgainstRigid(contact.tissue, contact.size_m);
   }
   double young_modulus = config_.softBody(contact.other).material.young_modulus_pa;
   if (!tissue_info_[contact.tissue].isMembrane())

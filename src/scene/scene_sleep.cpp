@@ -145,19 +145,6 @@ void Scene::Impl::wakeUp()
   }
 }
 
-/** Wakes the tissues that sleep together; setSleepers() has to follow. */
-void Scene::Impl::wake(std::size_t island)
-{
-  for (std::size_t k = 0; k < tissues_.size(); ++k)
-  {
-    if (asleep_[k] != 0 && island_[k] == island)
-    {
-      asleep_[k] = 0;
-      quiet_s_[k] = 0.0;
-    }
-  }
-}
-
 /** Whether a tissue has hardly moved in the step that ends, and nothing is about to move it. */
 bool Scene::Impl::isQuiet(std::size_t k) const
 {
