@@ -16,9 +16,10 @@ inline SceneConfig stroked(const ScratchFolder& folder)
   addTool(config, SphereShape{0.01}, {}, Response::segment);
   config.contacts[0].friction = 0.5;
   config.tools[0].pose_source.kind = PoseSourceConfig::Kind::keyframes;
-  config.tools[0].pose_source.keyframes = {{0.0, {Vec3(0.0, 0.0, kBlockTop + 0.0101), {}}},
-                                           {0.1, {Vec3(0.0, 0.0, kBlockTop + 0.007), {}}},
-                                           {0.4, {Vec3(0.008, 0.003, kBlockTop + 0.006), {}}}};
+  config.tools[0].pose_source.keyframes = {
+      {0.0, {Vec3(0.0, 0.0, kBlockTop + 0.0101), Vec3::Zero()}},
+      {0.1, {Vec3(0.0, 0.0, kBlockTop + 0.007), Vec3::Zero()}},
+      {0.4, {Vec3(0.008, 0.003, kBlockTop + 0.006), Vec3::Zero()}}};
   return config;
 }
 

@@ -116,7 +116,7 @@ TEST_F(SceneRun, refusesWhatCannotBeWrittenOrHasNoEnd)
   run.save_state = "/nowhere/state";
   EXPECT_THROW(runScene(run), soft_tissue::Error);
   run = options("run");
-  run.load_state = scene();
+  run.load_state = pressed_.scene();
   EXPECT_THROW(runScene(run), soft_tissue::Error);
   run = options("run");
   run.scene = SOURCE_DIR "/test/ros/block.yaml";  // moved by commands only

@@ -135,7 +135,7 @@ std::vector<Case> cases()
       {"moved_nodes", changed([](SceneConfig& c) {
          c.tissues[0].fixed.clear();
          c.tissues[0].keyframes = {{{Vec3(-1, -1, -1), Vec3(1, 1, 1e-6)},
-                                    {{0.0, {}}, {0.3, {Vec3(0.005, 0.0, 0.004), {}}}}}};
+                                    {{0.0, {}}, {0.3, {Vec3(0.005, 0.0, 0.004), Vec3::Zero()}}}}};
        })},
       {"membrane",
        [](const ScratchFolder& folder) {
