@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <utility>
 
@@ -220,7 +221,7 @@ bool JointTfInput::lookUp(const Link& link)
     transform = buffer_.lookupTransform(prefix_ + commands_.linkage().links()[link.parent].name,
                                         prefix_ + link.name, ros::Time());
   }
-  catch (const tf2::TransformException& error)
+  catch (const std::exception& error)  // tf lets those of ros::Time through
   {
     onMissing(error.what());
     return false;

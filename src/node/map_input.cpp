@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <ros/time.h>
 
+#include <exception>
 #include <utility>
 
 #include "soft_tissue_sim/base/error.h"
@@ -91,7 +92,7 @@ std::optional<soft_tissue::Pose> MapInput::frameOf(const octomap_msgs::Octomap& 
     {
       return poseFromMessage(buffer_.lookupTransform(world_frame_, frame, stamp).transform);
     }
-    catch (const tf2::TransformException& error)
+    catch (const std::exception& error)  // tf lets those of ros::Time through
     {
       reason = error.what();
     }

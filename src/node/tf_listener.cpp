@@ -14,8 +14,8 @@ namespace soft_tissue_sim
 namespace
 {
 constexpr int kQueue = 100;
-/** Stamps later than this, in the year 2106, overflow where tf adds durations to them. */
-constexpr std::uint32_t kLastSecond = std::numeric_limits<std::uint32_t>::max() - 3600;
+/** Stamps after this second, in the year 2038, overflow where tf takes others from them. */
+constexpr std::uint32_t kLastSecond = std::numeric_limits<std::int32_t>::max() - 3600;
 
 geometry_msgs::TransformStamped plain(
     const geometry_msgs::TransformStamped_<BoundedAllocator<void>>& bounded)

@@ -1,5 +1,6 @@
 #include "soft_tissue_sim/node/tool_inputs.h"
 
+#include <exception>
 #include <utility>
 
 namespace soft_tissue_sim
@@ -59,7 +60,7 @@ void TfInput::poll()
   {
     X_WT = buffer_.lookupTransform(world_frame_, frame_, ros::Time());
   }
-  catch (const tf2::TransformException& error)
+  catch (const std::exception& error)  // tf lets those of ros::Time through
   {
     onMissing(error.what());
     return;

@@ -5,6 +5,7 @@
 #include <tf2_ros/buffer.h>
 
 #include <deque>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -139,7 +140,7 @@ class StampedInput
         watch_.reject(Rejection::no_transform, error.what());
         return Resolved::refused;
       }
-      catch (const tf2::TransformException& error)
+      catch (const std::exception& error)  // tf lets those of ros::Time through
       {
         watch_.reject(Rejection::unknown_frame, error.what());
         return Resolved::refused;
