@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "box_ends.h"
+#include "soft_tissue_sim/collision/box_ends.h"
 
 namespace soft_tissue
 {

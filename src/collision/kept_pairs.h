@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "box_ends.h"
+#include "soft_tissue_sim/collision/box_ends.h"
 #include "soft_tissue_sim/collision/pair_finder.h"
 
 namespace soft_tissue

@@ -13,6 +13,8 @@ namespace
 constexpr double kInside = -1e-12;
 /** Pieces of an edge with less than this share of it between them are one stretch. */
 constexpr double kTouching = 1e-9;
+/** Of a quadrature rule and both ends. */
+constexpr int kPointsOfCell = 4;
 }  // namespace
 
 SurfaceInTissue::SurfaceInTissue(const TissueBody& host, const Intruder& intruder,
@@ -64,50 +66,58 @@ bool SurfaceInTissue::findHosts(const std::vector<SurfaceElement>& elements, con
   return !held_.empty();
 }
 
+// First those whose boxes miss, without a branch that few could foresee; then segments and tets.
 void SurfaceInTissue::dropMisses(const std::vector<ElementPair>& candidates)
 {
   const Points& x = *x_;
-  filter_.clear();
   boxes_.resize(elements_->size());
   boxed_in_.resize(elements_->size(), 0);
   ++call_;
+  near_pairs_.resize(candidates.size());
+  Index* next = near_pairs_.data();
   for (std::size_t i = 0; i < candidates.size();)
   {
     const Index t = candidates[i].second;
     const Tet& tet = (*host_.tets)[t];
-    Box3 box;
-    for (const Index node : tet)
+    Vec3 low = x[tet[0]], high = low;
+    for (int k = 1; k < 4; ++k)
     {
-      box.extend(x[node]);
+      low = low.cwiseMin(x[tet[k]]);
+      high = high.cwiseMax(x[tet[k]]);
     }
-    bool set = false;
+    const BoxEnds box = {{-high[0], -high[1], -high[2], low[0], low[1], low[2]}};
     for (; i < candidates.size() && candidates[i].second == t; ++i)
     {
-      const Index element = candidates[i].first;
-      if (!boxOf(element).overlaps(box))
-      {
-        continue;
-      }
-      if (!set)
-      {
-        filter_.setTet(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
-        set = true;
-      }
-      filter_.add(static_cast<Index>(i), end(element, 0), end(element, 1));
+      *next = static_cast<Index>(i);
+      next += overlap(boxOf(candidates[i].first), box) ? 1 : 0;
     }
+  }
+  near_pairs_.resize(next - near_pairs_.data());
+  filter_.clear();
+  Index t = -1;
+  for (const Index i : near_pairs_)
+  {
+    if (candidates[i].second != t)
+    {
+      t = candidates[i].second;
+      const Tet& tet = (*host_.tets)[t];
+      filter_.setTet(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
+    }
+    const Index element = candidates[i].first;
+    filter_.add(i, end(element, 0), end(element, 1));
   }
 }
 
 /** Of an element, made once a call. */
-const Box3& SurfaceInTissue::boxOf(Index element)
+const BoxEnds& SurfaceInTissue::boxOf(Index element)
 {
-  Box3& box = boxes_[element];
+  BoxEnds& box = boxes_[element];
   if (boxed_in_[element] != call_)
   {
     boxed_in_[element] = call_;
-    box = Box3();
-    box.extend(end(element, 0));
-    box.extend(end(element, 1));
+    const Vec3 low = end(element, 0).cwiseMin(end(element, 1));
+    const Vec3 high = end(element, 0).cwiseMax(end(element, 1));
+    box = {{low[0], low[1], low[2], -high[0], -high[1], -high[2]}};
   }
   return box;
 }
@@ -143,9 +153,10 @@ void SurfaceInTissue::addSamples(const DistanceField& field, std::vector<Contact
     return;
   }
   depth_.prepare(*x_);
+  near_.restart();
   for (const Index element : held_)
   {
-    near_ = -1;
+    hint_ = -1;
     if (!segments_)
     {
       addPoint(element, field, samples);
@@ -165,7 +176,7 @@ void SurfaceInTissue::addPoint(Index element, const DistanceField& field,
                                std::vector<ContactSample>& samples)
 {
   ContactSample sample;
-  if (measure({element, 0.0, &hosts_[point_host_[element]], (*elements_)[element].area}, field,
+  if (measure({element, 0.0, &hosts_[point_host_[element]], (*elements_)[element].area, 0}, field,
               sample))
   {
     samples.push_back(sample);
@@ -181,8 +192,8 @@ void SurfaceInTissue::addPieces(Index edge, const DistanceField& field,
   {
     forEachPoint(kGauss2, piece.where, [&](double parameter, double weight) {
       ContactSample sample;
-      if (measure({edge, parameter, &hosts_[piece.host], weight * (*elements_)[edge].area}, field,
-                  sample))
+      if (measure({edge, parameter, &hosts_[piece.host], weight * (*elements_)[edge].area, 0},
+                  field, sample))
       {
         samples.push_back(sample);
       }
@@ -208,12 +219,14 @@ void SurfaceInTissue::addStretches(Index edge, const DistanceField& field,
     }
     const Interval inside = {pieces[first].where.begin, pieces[last].where.end};
     std::size_t at = first;
+    int number = 0;
     const auto sampleAt = [&](double parameter, double weight, ContactSample& sample) {
       while (at < last && pieces[at].where.end < parameter)
       {
         ++at;
       }
-      return measure({edge, parameter, &hosts_[pieces[at].host], weight * area}, field, sample);
+      const Host& host = hosts_[pieces[at].host];
+      return measure({edge, parameter, &host, weight * area, number++}, field, sample);
     };
     const auto cellOf = [&](double parameter) { return static_cast<int>(parameter * cells); };
     double begin = inside.begin;
@@ -222,6 +235,7 @@ void SurfaceInTissue::addStretches(Index edge, const DistanceField& field,
       const double end = std::min((cell + 1.0) / cells, inside.end);
       if (end > begin)  // rounding may put a begin on the cell's end
       {
+        number = kPointsOfCell * cell + (begin > 0.0 && begin == inside.begin ? 0 : 1);
         addStretch(
             kGauss2,
             {{begin, end}, begin > 0.0 && begin == inside.begin, end < 1.0 && end == inside.end},
@@ -249,10 +263,13 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field, Co
   {
     return false;
   }
+  NearBoundary& near = near_.of(place.element, place.number);
+  near.hint = near.hint < 0 ? hint_ : near.hint;
   const bool found = intruder_.rest == nullptr
-                         ? depth_.evaluate(p, host.tet, host.coords, *x_, field, near_, sample)
+                         ? depth_.evaluate(p, host.tet, host.coords, *x_, field, near, sample)
                          : depth_.evaluateSelf(p, host.tet, host.coords, *x_, field,
-                                               *intruder_.rest, restPoint(place), near_, sample);
+                                               *intruder_.rest, restPoint(place), near, sample);
+  hint_ = near.hint;
   if (!found)
   {
     return false;

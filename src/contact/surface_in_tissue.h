@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "near_boundaries.h"
+#include "soft_tissue_sim/collision/box_ends.h"
 #include "soft_tissue_sim/collision/pair_finder.h"
 #include "soft_tissue_sim/collision/segment_cover.h"
 #include "soft_tissue_sim/collision/segment_filter.h"
@@ -70,10 +72,11 @@ class SurfaceInTissue
     double parameter;
     const Host* host;
     double area;
+    int number;  ///< of the point on its element, the same when it is sampled again
   };
 
   void dropMisses(const std::vector<ElementPair>& candidates);
-  const Box3& boxOf(Index element);
+  const BoxEnds& boxOf(Index element);
   void hostElement(Index element, Index number);
   void addPoint(Index element, const DistanceField& field, std::vector<ContactSample>& samples);
   void addPieces(Index edge, const DistanceField& field, std::vector<ContactSample>& samples);
@@ -91,15 +94,17 @@ class SurfaceInTissue
   const std::vector<SurfaceElement>* elements_ = nullptr;
   const Points* nodes_ = nullptr;
   const Points* x_ = nullptr;
-  std::vector<Box3> boxes_;              ///< of elements
+  std::vector<BoxEnds> boxes_;           ///< of elements
   std::vector<std::uint32_t> boxed_in_;  ///< the call that each was made in
   std::uint32_t call_ = 0;
-  SegmentFilter filter_;           ///< of candidates, by their places
+  std::vector<Index> near_pairs_;  ///< places of candidates whose boxes overlap
+  SegmentFilter filter_;           ///< of those, by their places
   std::vector<Host> hosts_;        ///< tets that hold something
   std::vector<Index> point_host_;  ///< per point: place in hosts_, or -1
   std::vector<Index> held_;        ///< points and edges that have a host, ascending
   SegmentCover edge_hosts_;        ///< per edge: its pieces in hosts_
-  Index near_ = -1;                ///< boundary triangle nearest to the last sample of the element
+  NearBoundaries near_;            ///< per sample
+  Index hint_ = -1;                ///< boundary triangle nearest to the last sample of the element
 };
 
 }  // namespace soft_tissue

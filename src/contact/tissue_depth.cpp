@@ -37,6 +37,40 @@ constexpr double kOnSurface = 1e-10;
 /** The tree is renewed when nodes are farther from it than this, in short edges. */
 constexpr double kStale = 0.1;
 
+/** Counted farther than this in all, m or m^2, a small motion would be lost in rounding. */
+constexpr double kFarthestTravel = 1.0;
+/** How much farther than the nearest triangle those in lists are, in short edges. */
+constexpr double kListed = 0.25;
+/** Of a list's radius: rounding of what is compared with it. */
+constexpr double kRounding = 1e-9;
+/** Of coordinates: rounding where they are shifted. */
+constexpr double kShiftRounding = 1e-14;
+
+/** From some nodes' places, in their order, to those that x has of all nodes. */
+NodeMotion motionBetween(const Points& from, const Points& x, const std::vector<Index>& nodes)
+{
+  NodeMotion motion;
+  for (std::size_t i = 0; i < from.size(); ++i)
+  {
+    motion.shift += x[nodes[i]] - from[i];
+  }
+  motion.shift /= static_cast<double>(std::max<std::size_t>(from.size(), 1));
+  double squared = 0.0, largest = 0.0;
+  bool finite = true;
+  for (std::size_t i = 0; i < from.size(); ++i)
+  {
+    const double off = (x[nodes[i]] - from[i] - motion.shift).squaredNorm();
+    finite = finite && std::isfinite(off);
+    squared = std::max(squared, off);
+    largest = std::max(largest, from[i].squaredNorm());
+  }
+  const double shifted = motion.shift == Vec3::Zero()
+                             ? 0.0
+                             : kShiftRounding * (std::sqrt(largest) + motion.shift.norm());
+  motion.rest = finite ? std::sqrt(squared) + shifted : std::numeric_limits<double>::infinity();
+  return motion;
+}
+
 int nearestCorner(const Vec3& p, const Tet& tet, const Points& x)
 {
   int nearest = 0;
@@ -116,22 +150,13 @@ void TissueDepth::prepare(const Points& x)
   {
     return;
   }
-  const std::vector<Index>& nodes = tissue_.surface->nodes;
-  double squared = 0.0;
-  for (std::size_t i = 0; i < tree_nodes_.size(); ++i)
-  {
-    squared = std::max(squared, (x[nodes[i]] - tree_nodes_[i]).squaredNorm());
-  }
-  moved_ = std::sqrt(squared);
-  if (!tree_.empty() && moved_ <= kStale * tissue_.short_edge)
+  travelTo(x);
+  motion_ = motionBetween(tree_nodes_, x, tissue_.surface->nodes);
+  if (!tree_.empty() && motion_.rest <= kStale * tissue_.short_edge)
   {
     return;
   }
-  tree_nodes_.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-  {
-    tree_nodes_[i] = x[nodes[i]];
-  }
+  tree_nodes_ = travel_.nodes;
   if (tree_.empty())
   {
     tree_.build(tissue_.surface->triangles, x);
@@ -141,7 +166,26 @@ void TissueDepth::prepare(const Points& x)
   {
     tree_.refit(x);
   }
-  moved_ = 0.0;
+  motion_ = NodeMotion();
+}
+
+void TissueDepth::travelTo(const Points& x)
+{
+  const std::vector<Index>& nodes = tissue_.surface->nodes;
+  const NodeMotion step = motionBetween(travel_.nodes, x, nodes);
+  travel_.shift += step.shift;
+  travel_.most += step.rest;
+  if (!(travel_.most < kFarthestTravel && travel_.shift.squaredNorm() < kFarthestTravel))
+  {
+    ++travel_.number;
+    travel_.shift.setZero();
+    travel_.most = 0.0;
+  }
+  travel_.nodes.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    travel_.nodes[i] = x[nodes[i]];
+  }
 }
 
 // Of triangles equally near the tree decides, which keeps the shape it was built with.
@@ -170,17 +214,35 @@ void TissueDepth::exchange(StateArchive& archive)
 }
 
 bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
-                           const DistanceField& field, Index& near, ContactSample& sample) const
+                           const DistanceField& field, NearBoundary& near,
+                           ContactSample& sample) const
 {
   sample.position = p;
+  if (!closest_feature_)
+  {
+    return interpolate(p, (*tissue_.tets)[tet], coords, field, sample);
+  }
   const auto any = [](Index) { return true; };
-  return closest_feature_ ? findFeature(p, tet, x, field, any, near, sample)
-                          : interpolate(p, (*tissue_.tets)[tet], coords, field, sample);
+  TriangleTree::Nearest found = onOwnTriangle(p, tet, x, any);
+  if (found.triangle < 0)
+  {
+    found = listed(p, x, near);
+  }
+  if (found.triangle < 0)
+  {
+    const Index hint = hintFor(p, tet, x, field, near.hint);
+    found = tree_.shortlist(p, x, hint, motion_, kListed * tissue_.short_edge, near.list);
+    near.place = p - travel_.shift;
+    near.travelled = travel_.most;
+    near.travel = travel_.number;
+  }
+  near.hint = found.triangle;
+  return takeFeature(p, found, x, sample);
 }
 
 bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& coords,
                                const Points& x, const DistanceField& field, const Points& rest,
-                               const Vec3& rest_of, Index& near, ContactSample& sample) const
+                               const Vec3& rest_of, NearBoundary& near, ContactSample& sample) const
 {
   if (!closest_feature_)
   {
@@ -200,7 +262,14 @@ bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& c
     return apart.dot(rest[t[0]] + rest[t[1]] + rest[t[2]]) / 3.0 <= halfway;
   };
   sample.position = p;
-  return findFeature(p, tet, x, field, onThisSide, near, sample);
+  TriangleTree::Nearest found = onOwnTriangle(p, tet, x, onThisSide);
+  if (found.triangle < 0)
+  {
+    const Index hint = hintFor(p, tet, x, field, near.hint);
+    found = tree_.nearestOf(p, x, hint, motion_, onThisSide);
+  }
+  near.hint = found.triangle;
+  return takeFeature(p, found, x, sample);
 }
 
 DepthCurvature TissueDepth::curvature(const ContactSample& sample, const Points& x) const
@@ -232,54 +301,84 @@ bool TissueDepth::interpolate(const Vec3& p, const Tet& tet, const TetCoordinate
 
 /** What is on a triangle of its own tet, as the ends of clipped edges are, needs no search. */
 template <typename Allowed>
-Index TissueDepth::nearestTriangle(const Vec3& p, Index tet, const Points& x,
-                                   const DistanceField& field, Index near,
-                                   const Allowed& allowed) const
+TriangleTree::Nearest TissueDepth::onOwnTriangle(const Vec3& p, Index tet, const Points& x,
+                                                 const Allowed& allowed) const
 {
-  Index hint = near;
+  TriangleTree::Nearest found;
   for (const Index* own = tet_triangles_.begin(tet); own != tet_triangles_.end(tet); ++own)
   {
     const Triangle& t = tissue_.surface->triangles[*own];
     const Vec3 &a = x[t[0]], &b = x[t[1]], &c = x[t[2]];
     const double near = kOnSurface * (b - a).norm();
-    if (allowed(*own) && closestOnTriangle(p, a, b, c).squared_distance <= near * near)
+    const TrianglePoint point = closestOnTriangle(p, a, b, c);
+    if (allowed(*own) && point.squared_distance <= near * near)
     {
-      return *own;
+      found.take(*own, point);
+      break;
     }
-    hint = hint < 0 ? *own : hint;
   }
-  if (hint < 0)
-  {
-    const Tet& nodes = (*tissue_.tets)[tet];
-    hint = field.closestTriangle()[nodes[nearestCorner(p, nodes, x)]];
-  }
-  return tree_.nearestOf(p, x, hint, moved_, allowed).triangle;
+  return found;
 }
 
-template <typename Allowed>
-bool TissueDepth::findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
-                              const Allowed& allowed, Index& near, ContactSample& sample) const
+/** The nearest one, if what was listed before still tells. */
+TriangleTree::Nearest TissueDepth::listed(const Vec3& p, const Points& x,
+                                          const NearBoundary& near) const
 {
-  const std::vector<Triangle>& triangles = tissue_.surface->triangles;
-  near = nearestTriangle(p, tet, x, field, near, allowed);
-  if (near < 0)  // nothing here is finite
+  TriangleTree::Nearest found;
+  if (near.travel != travel_.number)
+  {
+    return found;
+  }
+  const Shortlist& list = near.list;
+  const double moved = (p - travel_.shift - near.place).norm() + (travel_.most - near.travelled);
+  // Nearer than this nothing came of what then was at a distance.
+  const auto least = [moved](double then) { return (1.0 - kRounding) * then - moved; };
+  double distance = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < list.size() && least(list.distance(i)) <= distance; ++i)
+  {
+    const Triangle& t = tissue_.surface->triangles[list[i]];
+    found.take(list[i], closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]));
+    distance = std::sqrt(found.point.squared_distance);
+  }
+  return distance < least(list.radius()) ? found : TriangleTree::Nearest();
+}
+
+Index TissueDepth::hintFor(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                           Index hint) const
+{
+  if (hint >= 0)
+  {
+    return hint;
+  }
+  if (tet_triangles_.begin(tet) != tet_triangles_.end(tet))
+  {
+    return *tet_triangles_.begin(tet);
+  }
+  const Tet& nodes = (*tissue_.tets)[tet];
+  return field.closestTriangle()[nodes[nearestCorner(p, nodes, x)]];
+}
+
+/** @return false where nothing is finite */
+bool TissueDepth::takeFeature(const Vec3& p, const TriangleTree::Nearest& found, const Points& x,
+                              ContactSample& sample) const
+{
+  if (found.triangle < 0)
   {
     return false;
   }
-  const Triangle& triangle = triangles[near];
-  const TrianglePoint found = closestOnTriangle(p, x[triangle[0]], x[triangle[1]], x[triangle[2]]);
-  const double distance = std::sqrt(found.squared_distance);
+  const Triangle& triangle = tissue_.surface->triangles[found.triangle];
+  const double distance = std::sqrt(found.point.squared_distance);
   sample.count = 3;
   for (int k = 0; k < 3; ++k)
   {
     sample.node[k] = tissue_.first_node + triangle[k];
-    sample.coefficient[k] = -found.weights[k];
+    sample.coefficient[k] = -found.point.weights[k];
   }
   sample.depth = distance;
   // There the direction is lost in rounding: it is the triangle's own normal.
   const Vec3 side = x[triangle[1]] - x[triangle[0]];
   sample.gradient = distance > kOnSurface * side.norm()
-                        ? Vec3((p - found.point) / distance)
+                        ? Vec3((p - found.point.point) / distance)
                         : Vec3((x[triangle[2]] - x[triangle[0]]).cross(side).normalized());
   return true;
 }

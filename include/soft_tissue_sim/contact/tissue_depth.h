@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/depth_curvature.h"
 #include "soft_tissue_sim/contact/tissue_body.h"
@@ -9,12 +11,23 @@
 
 namespace soft_tissue
 {
+/** What is known of the boundary near a point: it spares searches, and changes no answer. */
+struct NearBoundary
+{
+  Index hint = -1;            ///< a triangle that may be near
+  Shortlist list;             ///< of what was near when the point was searched for
+  Vec3 place = Vec3::Zero();  ///< of the point then, m
+  double travelled = 0.0;     ///< TissueDepth::Travel then
+  std::uint32_t travel = 0;
+};
+
 /**
  * Depth of points inside a deformed tissue, with what it depends on.
  *
  * The nearest boundary feature is the global one: that of the host's nearest node gives a bound, a
  * tree over the boundary searches below it. A local minimum would make the energy jump from tet to
- * tet. The tree serves while nodes have not moved far.
+ * tet. The tree serves while nodes have not moved far, and what it found near a point while that
+ * and they have not.
  */
 class TissueDepth
 {
@@ -38,11 +51,11 @@ class TissueDepth
    * @param coords  of `tet` at x
    * @param x       positions of the body alone, N x 3, m, as last prepared
    * @param field   marched on all nodes of `tet`
-   * @param near    a boundary triangle that may be near, or -1; out: the nearest
+   * @param near    of this point, if it was evaluated before; its hint becomes the nearest triangle
    * @return false where no part of the boundary is at a finite distance
    */
   bool evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
-                const DistanceField& field, Index& near, ContactSample& sample) const;
+                const DistanceField& field, NearBoundary& near, ContactSample& sample) const;
 
   /**
    * The same at a point of the tissue's own surface that has come to be inside it.
@@ -52,7 +65,7 @@ class TissueDepth
    */
   bool evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
                     const DistanceField& field, const Points& rest, const Vec3& rest_of,
-                    Index& near, ContactSample& sample) const;
+                    NearBoundary& near, ContactSample& sample) const;
 
   /** What the second derivative of a sample's depth needs; x as it was evaluated at. */
   DepthCurvature curvature(const ContactSample& sample, const Points& x) const;
@@ -61,11 +74,23 @@ class TissueDepth
   bool interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,
                    const DistanceField& field, ContactSample& sample) const;
   template <typename Allowed>
-  Index nearestTriangle(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
-                        Index near, const Allowed& allowed) const;
-  template <typename Allowed>
-  bool findFeature(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
-                   const Allowed& allowed, Index& near, ContactSample& sample) const;
+  TriangleTree::Nearest onOwnTriangle(const Vec3& p, Index tet, const Points& x,
+                                      const Allowed& allowed) const;
+  TriangleTree::Nearest listed(const Vec3& p, const Points& x, const NearBoundary& near) const;
+  Index hintFor(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                Index hint) const;
+  bool takeFeature(const Vec3& p, const TriangleTree::Nearest& found, const Points& x,
+                   ContactSample& sample) const;
+  /** How far the boundary's nodes have come, each by no more than so much beside a common shift. */
+  struct Travel
+  {
+    std::uint32_t number = 1;  ///< they are counted anew from time to time
+    Vec3 shift = Vec3::Zero();
+    double most = 0.0;
+    Points nodes;  ///< where they were last
+  };
+
+  void travelTo(const Points& x);
 
   TissueBody tissue_;
   bool closest_feature_;
@@ -73,7 +98,8 @@ class TissueDepth
   TriangleTree tree_;        ///< over the boundary where it was at tree_nodes_
   Points tree_nodes_;        ///< by place in BoundarySurface::nodes, m
   Points built_nodes_;       ///< the same where it was built
-  double moved_ = 0.0;       ///< how far boundary nodes are from there at most, m
+  NodeMotion motion_;        ///< of boundary nodes since tree_nodes_
+  Travel travel_;
 };
 
 }  // namespace soft_tissue

@@ -6,10 +6,18 @@
 
 #include "soft_tissue_sim/geometry/box3.h"
 #include "soft_tissue_sim/geometry/closest_point.h"
+#include "soft_tissue_sim/geometry/shortlist.h"
 #include "soft_tissue_sim/geometry/triangle_tree_kernels.h"
 
 namespace soft_tissue
 {
+/** How nodes moved: all by `shift`, and each by at most `rest` beside, m. */
+struct NodeMotion
+{
+  Vec3 shift = Vec3::Zero();
+  double rest = 0.0;
+};
+
 /**
  * The triangle of a moving surface nearest to a point: exact, whatever the hint.
  *
@@ -23,8 +31,19 @@ class TriangleTree
   struct Nearest
   {
     Index triangle = -1;  ///< -1: none is at a finite distance
-    TrianglePoint point;
+    TrianglePoint point = {Vec3::Zero(), Vec3::Zero(), std::numeric_limits<double>::infinity()};
     int evaluations = 0;  ///< triangles looked at closely
+
+    /** Takes the nearer one; of equally near ones that of least number. */
+    void take(Index other, const TrianglePoint& at)
+    {
+      if (at.squared_distance < point.squared_distance ||
+          (at.squared_distance == point.squared_distance && other < triangle))
+      {
+        triangle = other;
+        point = at;
+      }
+    }
   };
 
   /**
@@ -49,20 +68,31 @@ class TriangleTree
    */
   Nearest nearest(const Vec3& p, const Points& x, Index hint = -1) const
   {
-    return nearestOf(p, x, hint, 0.0, [](Index) { return true; });
+    return nearestOf(p, x, hint, {}, [](Index) { return true; });
   }
 
   /**
    * The same of those triangles that allowed(triangle) is true for.
-   * @param moved  how far nodes are at most from where the last build() or refit() had them, m
+   * @param x       where nodes are now, N x 3, m
+   * @param motion  of nodes since the last build() or refit()
    */
   template <typename Allowed>
-  Nearest nearestOf(const Vec3& p, const Points& x, Index hint, double moved,
+  Nearest nearestOf(const Vec3& p, const Points& x, Index hint, const NodeMotion& motion,
                     const Allowed& allowed) const;
+
+  /**
+   * The nearest triangle, and all that are less than `slack` farther, as many as a list holds.
+   * While nodes and p together move by less than half of the radius less the distance, the nearest
+   * is in the list.
+   */
+  Nearest shortlist(const Vec3& p, const Points& x, Index hint, const NodeMotion& motion,
+                    double slack, Shortlist& list) const;
 
  private:
   template <typename Allowed>
   struct Search;
+  template <typename Allowed>
+  void find(const Vec3& in_tree, Index hint, Search<Allowed>& search) const;
   void search(const Vec3& p, double bound, VisitTriangle visit, void* context) const;
   struct Range
   {
@@ -89,24 +119,31 @@ struct TriangleTree::Search
   const std::vector<Triangle>& triangles;
   double moved;
   const Allowed& allowed;
-  Nearest found;
+  double slack = 0.0;         ///< how much farther than the nearest one is looked, m
+  Shortlist* list = nullptr;  ///< takes what was looked at, if any
+  Index hint = -1;            ///< looked at already
+  Nearest found = Nearest();
 
   double visit(Index triangle)
   {
-    if (triangle == found.triangle || !allowed(triangle))
+    if (triangle == hint || !allowed(triangle))
     {
       return limit();
     }
+    look(triangle);
+    return limit();
+  }
+
+  void look(Index triangle)
+  {
     ++found.evaluations;
     const Triangle& t = triangles[triangle];
     const TrianglePoint point = closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]);
-    if (point.squared_distance < found.point.squared_distance ||
-        (point.squared_distance == found.point.squared_distance && triangle < found.triangle))
+    if (list != nullptr)
     {
-      found.point = point;
-      found.triangle = triangle;
+      list->add(triangle, std::sqrt(point.squared_distance));
     }
-    return limit();
+    found.take(triangle, point);
   }
 
   /** What the square of another triangle's distance in the tree must not be above. */
@@ -114,28 +151,36 @@ struct TriangleTree::Search
   {
     constexpr double kRounding = 1e-13;  // of squared distances, as a share
     const double squared = found.point.squared_distance;
-    const double in_tree = moved > 0.0 ? std::sqrt(squared) + moved : 0.0;
-    return (1.0 + kRounding) * (moved > 0.0 ? in_tree * in_tree : squared);
+    const double farther = moved + slack;
+    const double in_tree = farther > 0.0 ? std::sqrt(squared) + farther : 0.0;
+    return (1.0 + kRounding) * (farther > 0.0 ? in_tree * in_tree : squared);
   }
 };
 
 template <typename Allowed>
 TriangleTree::Nearest TriangleTree::nearestOf(const Vec3& p, const Points& x, Index hint,
-                                              double moved, const Allowed& allowed) const
+                                              const NodeMotion& motion,
+                                              const Allowed& allowed) const
 {
-  Search<Allowed> search{p, x, *triangles_, moved, allowed, {}};
-  search.found.point.squared_distance = std::numeric_limits<double>::infinity();
-  if (hint >= 0)
+  Search<Allowed> search{p, x, *triangles_, motion.rest, allowed};
+  find(p - motion.shift, hint, search);
+  return search.found;
+}
+
+template <typename Allowed>
+void TriangleTree::find(const Vec3& in_tree, Index hint, Search<Allowed>& search) const
+{
+  if (hint >= 0 && search.allowed(hint))
   {
-    search.visit(hint);
+    search.look(hint);
+    search.hint = hint;
   }
   this->search(
-      p, search.limit(),
+      in_tree, search.limit(),
       [](void* context, Index triangle) {
         return static_cast<Search<Allowed>*>(context)->visit(triangle);
       },
       &search);
-  return search.found;
 }
 
 }  // namespace soft_tissue

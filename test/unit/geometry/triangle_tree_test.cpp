@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "soft_tissue_sim/base/cpu.h"
 #include "soft_tissue_sim/base/error.h"
@@ -198,14 +200,82 @@ TEST(TriangleTree, FindsTheNearestOfThoseAllowedOnASurfaceThatMovedOn)
       const TriangleTree::Nearest exact = bruteForce(soup, p, allowed);
       for (const Index hint : {-1, i % static_cast<Index>(soup.triangles.size())})
       {
-        const TriangleTree::Nearest found = tree.nearestOf(p, soup.x, hint, moved, allowed);
+        const TriangleTree::Nearest found =
+            tree.nearestOf(p, soup.x, hint, {Vec3::Zero(), moved}, allowed);
         EXPECT_EQ(found.triangle, exact.triangle);
         EXPECT_EQ(found.point.squared_distance, exact.point.squared_distance);
       }
     }
     const auto none = [](Index) { return false; };
-    EXPECT_EQ(tree.nearestOf(Vec3::Zero(), soup.x, 0, moved, none).triangle, -1);
+    EXPECT_EQ(tree.nearestOf(Vec3::Zero(), soup.x, 0, {Vec3::Zero(), moved}, none).triangle, -1);
   }
+}
+
+/** Of the soup, how far all triangles are from p, in order. */
+std::vector<double> distances(const Soup& soup, const Vec3& p)
+{
+  std::vector<double> all;
+  for (const Triangle& t : soup.triangles)
+  {
+    all.push_back(
+        std::sqrt(closestOnTriangle(p, soup.x[t[0]], soup.x[t[1]], soup.x[t[2]]).squared_distance));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// However the surface moved since, the list has all that is nearer than its radius, and nothing
+// else.
+TEST(TriangleTree, ListsAllThatIsNearerThanTheListsRadius)
+{
+  RandomGeometry random(23);
+  bool full = false, whole = false;
+  for (const double moved : {0.0, 0.05})
+  {
+    Soup soup = randomSoup(random, 300, 0.1);
+    TriangleTree tree;
+    tree.build(soup.triangles, soup.x);
+    const Vec3 shift(0.3, -0.2, 0.7);
+    for (Vec3& p : soup.x)
+    {
+      p += shift + moved * random.point(1.0).normalized();
+    }
+    for (int i = 0; i < 200; ++i)
+    {
+      const Vec3 p = random.point(1.2);
+      const double slack = i % 3 == 0 ? 0.01 : 0.2;
+      Shortlist list;
+      const TriangleTree::Nearest found =
+          tree.shortlist(p, soup.x, i % 2 == 0 ? -1 : i, {shift, moved}, slack, list);
+      EXPECT_EQ(found.triangle, bruteForce(soup, p).triangle);
+      const std::vector<double> all = distances(soup, p);
+      const double wanted = all[0] + slack;
+      const auto nearer = [&](double radius) {
+        return static_cast<int>(std::lower_bound(all.begin(), all.end(), radius) - all.begin());
+      };
+      EXPECT_LE(list.radius(), wanted);
+      EXPECT_EQ(list.size(), nearer(list.radius()));
+      for (int k = 0; k < list.size(); ++k)
+      {
+        const Triangle& t = soup.triangles[list[k]];
+        EXPECT_EQ(
+            std::sqrt(
+                closestOnTriangle(p, soup.x[t[0]], soup.x[t[1]], soup.x[t[2]]).squared_distance),
+            all[k]);
+      }
+      if (nearer(wanted) > Shortlist::kMost)
+      {
+        full = true;
+        EXPECT_EQ(list.radius(), all[Shortlist::kMost]);
+      }
+      else
+      {
+        whole = true;
+        EXPECT_EQ(list.radius(), wanted);
+      }
+    }
+  }
+  EXPECT_TRUE(full && whole);
 }
 
 }  // namespace
