@@ -96,6 +96,12 @@ void GroupPairs::searchAll(std::vector<ElementPair>& pairs)
   setLaneScale();
   found_count_ = 0;
   search();
+  if (never_)
+  {
+    const auto never = [this](const ElementPair& pair) { return never_(pair); };
+    const auto end = found_.begin() + static_cast<std::ptrdiff_t>(found_count_);
+    found_count_ = std::remove_if(found_.begin(), end, never) - found_.begin();
+  }
   order_.arrange(found_.data(), found_count_, pairs);
 }
 

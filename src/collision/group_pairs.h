@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "element_groups.h"
@@ -21,6 +23,10 @@ class GroupPairs : public PairFinder
 
   void find(const Vec3* x_first, const Vec3* x_second, double margin,
             std::vector<ElementPair>& pairs) override;
+  void leaveOut(std::function<bool(const ElementPair&)> never) override
+  {
+    never_ = std::move(never);
+  }
 
  protected:
   /** Adds the pairs of this call, in any order; the bounds of both sets overlap. */
@@ -67,7 +73,8 @@ class GroupPairs : public PairFinder
   void setLaneScale();
 
   bool one_body_;
-  std::vector<ElementPair> found_;  ///< longer than they are many
+  std::function<bool(const ElementPair&)> never_;  ///< none: all are pairs
+  std::vector<ElementPair> found_;                 ///< longer than they are many
   std::size_t found_count_ = 0;
   PairOrder order_;
   KeptPairs kept_;

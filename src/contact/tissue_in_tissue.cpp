@@ -1,6 +1,5 @@
 #include "tissue_in_tissue.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace soft_tissue
@@ -27,6 +26,45 @@ double shareOf(const TissueBody& intruder)
   return intruder.isSolid() ? 0.5 : 1.0;
 }
 
+/** Elements and tets of one body that are side by side at rest: they stay so, and are most of what
+ * is near in a body. */
+class RestNeighbours
+{
+ public:
+  RestNeighbours(const SurfaceElements& elements, const TissueBody& body)
+  {
+    for (Index element = 0; element < static_cast<Index>(elements.size()); ++element)
+    {
+      element_boxes_.push_back(boxOf(elements.nodes(element), *body.rest));
+      element_boxes_.back().grow(kNeighbours * body.short_edge);
+    }
+    for (const Tet& tet : *body.tets)
+    {
+      tet_boxes_.push_back(boxOf(tet, *body.rest));
+    }
+  }
+
+  bool operator()(const ElementPair& pair) const
+  {
+    return element_boxes_[pair.first].overlaps(tet_boxes_[pair.second]);
+  }
+
+ private:
+  template <typename Nodes>
+  static Box3 boxOf(const Nodes& nodes, const Points& rest)
+  {
+    Box3 box;
+    for (const Index node : nodes)
+    {
+      box.extend(rest[node]);
+    }
+    return box;
+  }
+
+  std::vector<Box3> element_boxes_;  ///< grown by how near neighbours are
+  std::vector<Box3> tet_boxes_;
+};
+
 Intruder intruderOf(const TissueBody& body, int side, bool self)
 {
   Intruder intruder;
@@ -45,17 +83,16 @@ TissueInTissue::TissueInTissue(const TissueBody& intruder, const TissueBody& hos
       elements_(*intruder.surface, options, shareOf(intruder)),
       element_nodes_(numbersOf(elements_, options.segments)),
       field_(std::move(host_field), host.node_count, options.lazy_field),
-      surface_(host, intruderOf(intruder, side, self), options),
-      is_self_(self)
+      surface_(host, intruderOf(intruder, side, self), options)
 {
-  if (self)
-  {
-    takeRestBoxes(*host.rest);
-  }
   const int each = options.segments ? 2 : 1;
   const ElementSet surface = {element_nodes_.data(), each, static_cast<Index>(elements_.size())};
   const ElementSet tets = {host.tets->data()->data(), 4, static_cast<Index>(host.tets->size())};
   finder_ = makePairFinder(kDefaultPairMethod, surface, tets, self);
+  if (self)
+  {
+    finder_->leaveOut(RestNeighbours(elements_, host));
+  }
 }
 
 void TissueInTissue::beginStep(const Positions& at, double margin, bool refresh)
@@ -68,10 +105,6 @@ void TissueInTissue::beginStep(const Positions& at, double margin, bool refresh)
 void TissueInTissue::lookAround(double margin)
 {
   finder_->find(at_.intruder_expected->data(), at_.host_expected->data(), margin, candidates_);
-  if (is_self_)
-  {
-    dropNeighbours();
-  }
   seen_.assign(elements_.size(), 0);
   for (const ElementPair& pair : candidates_)
   {
@@ -95,39 +128,6 @@ void TissueInTissue::lookAround(double margin)
     }
   }
   field_.expect(host_nodes_);
-}
-
-void TissueInTissue::takeRestBoxes(const Points& rest)
-{
-  for (Index element = 0; element < static_cast<Index>(elements_.size()); ++element)
-  {
-    Box3 box;
-    for (const Index node : elements_.nodes(element))
-    {
-      box.extend(rest[node]);
-    }
-    box.grow(kNeighbours * host_.short_edge);
-    element_boxes_.push_back(box);
-  }
-  for (const Tet& tet : *host_.tets)
-  {
-    Box3 box;
-    for (const Index node : tet)
-    {
-      box.extend(rest[node]);
-    }
-    tet_boxes_.push_back(box);
-  }
-}
-
-/** What is side by side at rest stays so, and is most of what is near in a body. */
-void TissueInTissue::dropNeighbours()
-{
-  const auto areNeighbours = [&](const ElementPair& pair) {
-    return element_boxes_[pair.first].overlaps(tet_boxes_[pair.second]);
-  };
-  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), areNeighbours),
-                    candidates_.end());
 }
 
 bool TissueInTissue::find(const Points& intruder, const Points& host)

@@ -66,18 +66,12 @@ class TissueInTissue
   DepthCurvature curvature(const ContactSample& sample) const { return surface_.curvature(sample); }
 
  private:
-  void takeRestBoxes(const Points& rest);
-  void dropNeighbours();
-
   TissueBody host_;
   SurfaceElements elements_;
   std::vector<Index> element_nodes_;  ///< what the finder numbers
   std::unique_ptr<PairFinder> finder_;
   HostField field_;
   SurfaceInTissue surface_;
-  bool is_self_;                     ///< the body touches itself; else these are empty:
-  std::vector<Box3> element_boxes_;  ///< at rest, grown by how near neighbours are
-  std::vector<Box3> tet_boxes_;      ///< at rest
   Positions at_;
   std::vector<ElementPair> candidates_;
   std::vector<Index> host_nodes_;  ///< of candidate tets

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -51,6 +52,9 @@ class PairFinder
    */
   virtual void find(const Vec3* x_first, const Vec3* x_second, double margin,
                     std::vector<ElementPair>& pairs) = 0;
+
+  /** Pairs for which never(pair) is true are none; said before the first find(). */
+  virtual void leaveOut(std::function<bool(const ElementPair&)> never) = 0;
 };
 
 /**

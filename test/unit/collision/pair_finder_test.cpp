@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -247,6 +248,29 @@ TEST_P(PairFinders, LeaveOutNodesThatAreNoNumbers)
         all = expectAllFound(a.x, x_b);
       }
     }
+  }
+}
+
+TEST_P(PairFinders, LeaveOutPairsThatAreSaidToBeNone)
+{
+  const PairBody a(makeBall(1.0, 600)), b(makeBall(1.0, 600));
+  prepare(a, b);
+  const auto never = [](const ElementPair& pair) { return (pair.first + pair.second) % 3 != 0; };
+  finder_->leaveOut(never);
+  for (int step = 0; step < 12; ++step)  // slowly: later calls pick from what was kept
+  {
+    const Points x_b = b.moved(Vec3(0.7 + (step < 8 ? 0.0005 * step : 0.1 * step), 0.0, 0.1));
+    finder_->find(a.x.data(), x_b.data(), 0.02, pairs_);
+    SortedPairs truth = bruteForcePairs(first_, second_, a.x, x_b, 0.02, false);
+    const std::size_t all = truth.size();
+    truth.erase(std::remove_if(truth.begin(), truth.end(),
+                               [&](const auto& pair) {
+                                 return never({pair.second, pair.first});
+                               }),
+                truth.end());
+    EXPECT_EQ(sortedPairs(pairs_), truth);
+    EXPECT_GT(truth.size(), all / 4);
+    EXPECT_LT(truth.size(), all / 2);
   }
 }
 
