@@ -5,6 +5,7 @@ the other but the cable. Namespaces have no names and live as long as a process 
 one, however it ends: nothing is left behind.
 """
 import os
+import shutil
 import subprocess
 import sys
 
@@ -18,14 +19,21 @@ def enter():
     """Starts this program again in a network namespace of its own; ends it as skipped where that can't be."""
     if MARK in os.environ:
         return
+    missing = [program for program in ("ip", "nsenter", "setpriv", "unshare") if not shutil.which(program)]
+    if missing:
+        skip("there is no " + ", no ".join(missing))
     own = next((way for way in (["unshare", "--net"], ["unshare", "--map-root-user", "--net"])
                 if subprocess.run(way + ["ip", "link", "add", "name", "end_a", "type", "veth", "peer", "name", "end_b"],
                                   stderr=subprocess.DEVNULL).returncode == 0), None)
     if own is None:
-        print("SKIPPED: network namespaces can't be made here: that needs root, or users' own namespaces")
-        sys.exit(CTEST_SKIPPED)
+        skip("network namespaces can't be made here: that needs root, or users' own namespaces")
     os.environ[MARK] = "yes"
     os.execvp(own[0], own + [sys.executable, "-B"] + sys.argv)
+
+
+def skip(reason):
+    print("SKIPPED: " + reason)
+    sys.exit(CTEST_SKIPPED)
 
 
 def machine_environment(address):

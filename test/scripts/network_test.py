@@ -13,6 +13,7 @@ linked_machines.enter()  # before anything of ROS looks for its master
 
 import rosgraph
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray
 from octomap_msgs.msg import Octomap
 from soft_tissue_sim.msg import SimStats, TissueState
 
@@ -48,6 +49,9 @@ class NetworkTest(unittest.TestCase):
             (LEFT + "/cube/state", TissueState), (LEFT + "/octomap_full", Octomap), (LEFT + "/octomap_binary", Octomap),
             (RIGHT + "/block/state", TissueState), (RIGHT + "/stats", SimStats))]
         wait_until(lambda: len(cls.newest) == len(cls.subscribers), "messages of both nodes come")
+        cls.accepted = 0
+        cls.subscribers.append(rospy.Subscriber("/diagnostics", DiagnosticArray, cls.note_maps))
+        wait_until(lambda: cls.accepted > 0, "the right one takes a map")
 
     @classmethod
     def listen(cls, topic, kind):
@@ -55,6 +59,12 @@ class NetworkTest(unittest.TestCase):
             cls.newest[topic] = message
 
         return rospy.Subscriber(topic, kind, keep, queue_size=1, tcp_nodelay=True)
+
+    @classmethod
+    def note_maps(cls, array):
+        for status in array.status:
+            if "plate maps" in status.name:
+                cls.accepted = int({pair.key: pair.value for pair in status.values}["accepted"])
 
     def lower_face(self):
         return min(self.newest[LEFT + "/cube/state"].positions[2::3])
@@ -118,6 +128,8 @@ class NetworkTest(unittest.TestCase):
         full, binary = (decode(self.newest[LEFT + "/octomap_" + kind]) for kind in ("full", "binary"))
         self.assertEqual(full[0], binary[0])
         self.assertEqual(min(z for _, _, z in full[0]), round(TOP / CELL) - 1)
+        print("  a map takes %d bytes, %d as binary" % tuple(len(self.newest[LEFT + "/octomap_" + kind].data)
+                                                             for kind in ("full", "binary")))
         sent = sum(len(self.newest[LEFT + "/octomap_" + kind].data) for kind in ("full", "binary"))
         self.assertGreater(self.machines.received_bytes() - before, sent)
 

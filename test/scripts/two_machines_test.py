@@ -43,7 +43,7 @@ class TwoMachinesTest(unittest.TestCase):
         nodes = {node.namespace + node.name: node for node in config.nodes}
         self.assertEqual({name: node.machine_name for name, node in nodes.items()},
                          {"/left/sim_node": "left", "/right/sim_node": "right"})
-        self.assertIn(["/right/sim_node/octomap_in", "/left/sim_node/octomap_full"],
+        self.assertIn(["/right/sim_node/octomap_in", "/left/sim_node/octomap_binary"],
                       [list(pair) for pair in nodes["/right/sim_node"].remap_args])
 
     def test_both_run_on_this_machine(self):
