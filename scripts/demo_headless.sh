@@ -35,7 +35,7 @@ live_on_virtual_display()
   echo "with markers counted for $seconds s"
   record "$out/live_markers.bag" "$seconds"
 
-  in_background "$logs/rviz.log" rosrun rviz rviz -d config/rviz/sim.rviz --fullscreen
+  in_background "$logs/rviz.log" rosrun rviz rviz -d config/rviz/palpation.rviz --fullscreen
   wait_for 60 subscribed_by rviz "$node/markers" || fail "rviz did not come up: see $logs/rviz.log"
   echo "with rviz for $seconds s"
   record "$out/live_rviz.bag" "$seconds"

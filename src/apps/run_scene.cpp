@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "soft_tissue_sim/node/bag_playback.h"
 #include "soft_tissue_sim/node/identification.h"
 #include "soft_tissue_sim/node/run_options.h"
 #include "soft_tissue_sim/node/scene_run.h"
@@ -35,6 +36,10 @@ int main(int argc, char** argv)
     else if (options.describe_schema)
     {
       std::printf("%s", soft_tissue::describeSchema().c_str());
+    }
+    else if (options.list_inputs)
+    {
+      printInputs(options);
     }
     else if (!options.identify.empty())
     {

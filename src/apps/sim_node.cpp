@@ -18,7 +18,12 @@ int main(int argc, char** argv)
     const NodeParams params = readNodeParams(private_node);
     const int processors = static_cast<int>(std::thread::hardware_concurrency());
     soft_tissue::setThreadCount(params.threads > 0 ? params.threads : processors);
-    soft_tissue::Scene scene = buildScene(loadConfig(params.scene));
+    ProgressTopic progress(private_node);
+    progress.begin("load", 2);
+    progress.enter(0, "reading " + params.scene);
+    const soft_tissue::SceneConfig config = loadConfig(params.scene);
+    progress.enter(1, "building tissues, tools and contacts");
+    soft_tissue::Scene scene = buildScene(config);
     for (const soft_tissue::TissueInfo& tissue : scene.tissues())
     {
       for (const std::string& remark : tissue.remarks)
@@ -33,7 +38,8 @@ int main(int argc, char** argv)
         ROS_WARN_STREAM("tool '" << tool.name << "': " << remark);
       }
     }
-    SimNode node(private_node, params, std::move(scene));
+    SimNode node(private_node, params, std::move(scene), progress);
+    progress.end(Progress::DONE);
     ROS_INFO_STREAM("simulating " << params.scene);
     ros::spin();
     return node.failed() ? 1 : 0;

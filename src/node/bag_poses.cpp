@@ -1,174 +1,152 @@
 #include "soft_tissue_sim/node/bag_poses.h"
 
-#include <geometry_msgs/PoseStamped.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
 #include <algorithm>
-#include <limits>
-#include <map>
-#include <memory>
 
-#include "bag_joints.h"
-#include "bag_topics.h"
+#include "bag_stream.h"
 #include "bag_transforms.h"
 #include "soft_tissue_sim/base/error.h"
-#include "soft_tissue_sim/node/command_check.h"
-#include "soft_tissue_sim/node/geometry_conversions.h"
+#include "soft_tissue_sim/node/joint_inputs.h"
+#include "soft_tissue_sim/node/tool_inputs.h"
 
 namespace soft_tissue_sim
 {
 namespace
 {
 using soft_tissue::Error;
+using soft_tissue::JointValues;
 using soft_tissue::Pose;
 using soft_tissue::ToolConfig;
 using Kind = soft_tissue::PoseSourceConfig::Kind;
 
-const std::string kPoseType = "geometry_msgs/PoseStamped";
-
-struct Sample
+/** The streams of one tool. */
+struct ToolStreams
 {
-  ros::Time stamp;
-  Pose X_WT;
+  BagStream<Pose> poses;
+  BagStream<Twist> twists;
+  BagStream<JointValues> joints, jaw;
 };
 
-/** Reads one tool's samples in the order of the bag. */
-class SampleReader
+/** Reads streams in the order of their stamps. */
+class Reader
 {
  public:
-  SampleReader(rosbag::Bag& bag, std::string world_frame)
-      : bag_(bag), world_frame_(std::move(world_frame))
-  {}
-
-  std::vector<Sample> fromTopic(const std::string& topic, std::vector<std::string>& warnings)
+  Reader(rosbag::Bag& bag, std::string world_frame, std::vector<std::string>& warnings)
+      : bag_(bag),
+        transforms_(bag),
+        frames_{transforms_.buffer(), std::move(world_frame), 0.0},
+        warnings_(warnings)
   {
-    std::vector<Sample> samples;
-    std::map<std::string, std::size_t> refused;
-    rosbag::View view(bag_, rosbag::TopicQuery(topic));
-    for (const rosbag::MessageInstance& instance : view)
+    for (const auto& [reason, count] : transforms_.refused())
     {
-      const auto message = instance.instantiate<geometry_msgs::PoseStamped>();
-      if (!message)
-      {
-        ++refused[kOtherDefinition];
-        continue;
-      }
-      const ros::Time stamp =
-          message->header.stamp.isZero() ? instance.getTime() : message->header.stamp;
-      try
-      {
-        samples.push_back({stamp, worldPose(*message, stamp)});
-      }
-      catch (const Error& reason)
-      {
-        ++refused[reason.what()];
-      }
+      warnings.push_back("tf: " + std::to_string(count) + " transforms left out: " + reason);
     }
-    for (const auto& [reason, count] : refused)
-    {
-      warnings.push_back(topic + ": " + std::to_string(count) + " poses left out: " + reason);
-    }
-    return samples;
   }
 
-  std::vector<Sample> fromFrame(const std::string& frame)
+  ToolStreams read(const ToolConfig& tool, const TopicTypes& types)
   {
-    std::vector<Sample> samples;
-    for (const ros::Time& stamp : transforms().stamps())
+    const ToolTopics topics = toolTopics(types, tool);
+    ToolStreams streams;
+    if (tool.pose_source.kind == Kind::tf)
     {
-      Pose X_WT;
-      if (transforms().lookup(world_frame_, frame, stamp, X_WT).empty() &&
-          checkPose(poseMessage(X_WT)) == Rejection::none)
-      {
-        samples.push_back({stamp, X_WT});
-      }
+      streams.poses = posesOfFrame(tool.pose_source.name);
     }
-    return samples;
+    else if (!topics.pose.empty())
+    {
+      streams.poses = posesOn(topics.pose);
+    }
+    if (!topics.twist.empty())
+    {
+      streams.twists = twistsOn(topics.twist, tool.name);
+    }
+    if (!topics.joints.empty())
+    {
+      streams.joints = jointsOn<JointInput>(topics.joints, "joints", tool);
+    }
+    else if (tool.joint_source.kind == soft_tissue::JointSourceConfig::Kind::tf)
+    {
+      streams.joints = jointsOfFrames(tool);
+    }
+    if (!topics.jaw.empty())
+    {
+      streams.jaw = jointsOn<JawInput>(topics.jaw, "jaw", tool);
+    }
+    return streams;
   }
 
  private:
-  Pose worldPose(const geometry_msgs::PoseStamped& message, const ros::Time& stamp)
+  BagStream<Pose> posesOn(const std::string& topic)
   {
-    const Rejection rejection = checkPose(message.pose);
-    if (rejection != Rejection::none)
-    {
-      throw Error(rejectionText(rejection));
-    }
-    const std::string& frame = message.header.frame_id;
-    const Pose X_FT = poseFromMessage(message.pose);
-    if (frame.empty() || frame == world_frame_)
-    {
-      return X_FT;
-    }
-    Pose X_WF;
-    if (!transforms().lookup(world_frame_, frame, stamp, X_WF).empty())
-    {
-      throw Error("tf in the bag does not lead from frame '" + frame + "' to '" + world_frame_ +
-                  "' at the stamp");
-    }
-    const Pose X_WT = X_WF * X_FT;
-    if (checkPose(poseMessage(X_WT)) != Rejection::none)
-    {
-      throw Error(rejectionText(checkPose(poseMessage(X_WT))));
-    }
-    return X_WT;
+    BagStreamReader<Pose> reader("pose", topic);
+    PoseInput input(reader.gate(), frames_);
+    reader.readTopic<geometry_msgs::PoseStamped>(
+        bag_, [&](const auto& message) { input.onCommand(message); });
+    reader.dropDuplicates();
+    return reader.take(warnings_);
   }
 
-  const BagTransforms& transforms()
+  BagStream<Twist> twistsOn(const std::string& topic, const std::string& tool_frame)
   {
-    if (!transforms_)
+    BagStreamReader<Twist> reader("twist", topic);
+    TwistInput input(reader.gate(), frames_, tool_frame);
+    reader.readTopic<geometry_msgs::TwistStamped>(
+        bag_, [&](const auto& message) { input.onCommand(message); });
+    reader.dropDuplicates();
+    return reader.take(warnings_);
+  }
+
+  template <typename Input>
+  BagStream<JointValues> jointsOn(const std::string& topic, const char* of, const ToolConfig& tool)
+  {
+    BagStreamReader<JointValues> reader(of, topic);
+    Input input(tool, reader.gate());
+    // Those of one stamp may name different joints: none is a duplicate.
+    reader.template readTopic<sensor_msgs::JointState>(
+        bag_, [&](const auto& message) { input.onState(*message); });
+    return reader.take(warnings_);
+  }
+
+  BagStream<Pose> posesOfFrame(const std::string& frame)
+  {
+    BagStreamReader<Pose> reader("pose", "/tf");
+    reader.readStamps(
+        transforms_.stampsBetween(frames_.world_frame, frame), [&](const ros::Time& stamp) {
+          Pose X_WT;
+          const std::string missing = transforms_.lookup(frames_.world_frame, frame, stamp, X_WT);
+          const Rejection rejection =
+              missing.empty() ? checkPose(poseMessage(X_WT)) : Rejection::no_transform;
+          if (rejection == Rejection::none)
+          {
+            reader.gate().accept(X_WT, stamp);
+          }
+          else
+          {
+            reader.gate().reject(rejection, missing);
+          }
+        });
+    return reader.take(warnings_);
+  }
+
+  BagStream<JointValues> jointsOfFrames(const ToolConfig& tool)
+  {
+    BagStreamReader<JointValues> reader("joints", "/tf");
+    JointTfInput input(tool, tool.joint_source.name, reader.gate(), transforms_.buffer(), 0.0);
+    std::vector<ros::Time> stamps;
+    for (const auto& [parent, child] : input.frames())
     {
-      transforms_ = std::make_unique<BagTransforms>(bag_);
+      const std::vector<ros::Time> moved = transforms_.stampsBetween(parent, child);
+      stamps.insert(stamps.end(), moved.begin(), moved.end());
     }
-    return *transforms_;
+    std::sort(stamps.begin(), stamps.end());
+    stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
+    reader.readStamps(stamps, [&](const ros::Time& stamp) { input.readAt(stamp); });
+    return reader.take(warnings_);
   }
 
   rosbag::Bag& bag_;
-  std::string world_frame_;
-  std::unique_ptr<BagTransforms> transforms_;  ///< read when first needed
+  BagTransforms transforms_;
+  FrameLookup frames_;
+  std::vector<std::string>& warnings_;
 };
-
-std::vector<Sample> readSamples(SampleReader& reader, const ToolConfig& tool,
-                                const TopicTypes& types, std::vector<std::string>& warnings)
-{
-  if (tool.pose_source.kind == Kind::tf)
-  {
-    return reader.fromFrame(tool.pose_source.name);
-  }
-  std::string topic;
-  if (tool.pose_source.kind == Kind::topic)
-  {
-    topic = findTopic(types, tool.name + "/" + tool.pose_source.name, kPoseType);
-  }
-  if (topic.empty())
-  {
-    topic = findTopic(types, tool.name + "/measured_cp", kPoseType);
-  }
-  return topic.empty() ? std::vector<Sample>() : reader.fromTopic(topic, warnings);
-}
-
-/** What a tool's joints, or its jaw's, are in the bag; nothing where something else moves them. */
-JointSamples readJointsOf(const rosbag::Bag& bag, const ToolConfig& tool, bool of_jaw,
-                          const TopicTypes& types,
-                          std::vector<std::string>& warnings)
-{
-  using JointKind = soft_tissue::JointSourceConfig::Kind;
-  const JointKind kind = tool.joint_source.kind;
-  if (tool.linkage.coordinates().empty() ||
-      (of_jaw ? !tool.jaw || kind == JointKind::keyframes : kind != JointKind::topic))
-  {
-    return {};
-  }
-  const char* const state = "sensor_msgs/JointState";
-  const std::string name = of_jaw ? tool.jaw->topic : tool.joint_source.name;
-  std::string topic = findTopic(types, tool.name + "/" + name, state);
-  if (topic.empty())
-  {
-    topic = findTopic(types, tool.name + (of_jaw ? "/jaw/measured_js" : "/measured_js"), state);
-  }
-  return topic.empty() ? JointSamples() : readJoints(bag, topic, tool, of_jaw, warnings);
-}
 
 std::string listTopics(const TopicTypes& types)
 {
@@ -180,75 +158,106 @@ std::string listTopics(const TopicTypes& types)
   return list.empty() ? "it has no topics" : "it has " + list;
 }
 
+std::string wantedName(const ToolConfig& tool)
+{
+  const std::string measured = tool.name + "/measured_cp";
+  const std::string command = tool.name + "/" + tool.pose_source.name;
+  switch (tool.pose_source.kind)
+  {
+    case Kind::topic:
+    case Kind::twist:
+      return command + " or " + measured;
+    case Kind::marker:
+      return measured;
+    case Kind::tf:
+      return "tf frame " + tool.pose_source.name;
+    case Kind::keyframes:
+    case Kind::base:
+      break;
+  }
+  return "";
+}
+
 std::string wantedNames(const std::vector<ToolConfig>& tools)
 {
   std::string names;
   for (const ToolConfig& tool : tools)
   {
-    const std::string separator = names.empty() ? "" : ", ";
-    switch (tool.pose_source.kind)
-    {
-      case Kind::topic:
-        names += separator + tool.name + "/" + tool.pose_source.name + " or " + tool.name +
-                 "/measured_cp";
-        break;
-      case Kind::twist:
-      case Kind::marker:
-        names += separator + tool.name + "/measured_cp";
-        break;
-      case Kind::tf:
-        names += separator + "tf frame " + tool.pose_source.name;
-        break;
-      case Kind::keyframes:
-      case Kind::base:
-        break;
-    }
+    const std::string name = wantedName(tool);
+    names += (names.empty() || name.empty() ? "" : ", ") + name;
   }
   return names.empty() ? "nothing: all tools of the scene follow key frames" : names;
+}
+
+/** When the streams that move tools begin and end. */
+struct Span
+{
+  template <typename Sample>
+  void include(const BagStream<Sample>& stream)
+  {
+    if (!stream.empty())
+    {
+      first = std::min(first, stream.stamps.front());
+      last = std::max(last, stream.stamps.back());
+    }
+  }
+
+  void include(const ToolStreams& streams)
+  {
+    // Measured poses beside velocities only tell where a tool was when those began.
+    streams.twists.empty() ? include(streams.poses) : include(streams.twists);
+    include(streams.joints);
+    include(streams.jaw);
+  }
+
+  ros::Time first = ros::TIME_MAX, last = ros::TIME_MIN;
+};
+
+BagTool toolOf(const ToolStreams& streams, const ros::Time& start)
+{
+  BagTool tool;
+  tool.poses = streams.poses.since(start);
+  tool.twists = streams.twists.since(start);
+  tool.joints = streams.joints.since(start);
+  tool.jaw = streams.jaw.since(start);
+  if (!tool.poses.empty())
+  {
+    tool.first_pose = tool.twists.empty() ? tool.poses.samples.front() : tool.poses.at(0.0);
+  }
+  if (!tool.twists.empty())
+  {
+    tool.poses = {};
+  }
+  for (const StreamCounts* counts :
+       {&streams.poses.counts, &streams.twists.counts, &streams.joints.counts, &streams.jaw.counts})
+  {
+    if (!counts->of.empty())
+    {
+      tool.counts.push_back(*counts);
+    }
+  }
+  return tool;
 }
 
 BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
                 const std::string& world_frame)
 {
   const TopicTypes types = topicTypes(bag);
-  SampleReader reader(bag, world_frame);
   BagPoses poses;
-  std::vector<std::vector<Sample>> samples(tools.size());
-  std::vector<JointSamples> joints, jaws;
+  Reader reader(bag, world_frame, poses.warnings);
+  std::vector<ToolStreams> streams;
   std::vector<std::string> without_poses;
-  ros::Time first = ros::TIME_MAX;
-  ros::Time last = ros::TIME_MIN;
-  const auto include = [&](const ros::Time& begin, const ros::Time& end) {
-    first = std::min(first, begin);
-    last = std::max(last, end);
-  };
-  for (std::size_t tool = 0; tool < tools.size(); ++tool)
+  Span span;
+  for (const ToolConfig& tool : tools)
   {
-    joints.push_back(readJointsOf(bag, tools[tool], false, types, poses.warnings));
-    jaws.push_back(readJointsOf(bag, tools[tool], true, types, poses.warnings));
-    for (const JointSamples* read : {&joints.back(), &jaws.back()})
+    streams.push_back(reader.read(tool, types));
+    span.include(streams.back());
+    if (streams.back().poses.empty() && streams.back().twists.empty() && !wantedName(tool).empty())
     {
-      if (!read->empty())
-      {
-        include(read->stamps.front(), read->stamps.back());
-      }
+      without_poses.push_back("no poses for tool '" + tool.name + "': it stays where it is");
     }
-    if (tools[tool].pose_source.kind == Kind::keyframes ||
-        tools[tool].pose_source.kind == Kind::base)
-    {
-      continue;
-    }
-    samples[tool] = readSamples(reader, tools[tool], types, poses.warnings);
-    std::stable_sort(samples[tool].begin(), samples[tool].end(),
-                     [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; });
-    if (samples[tool].empty())
-    {
-      without_poses.push_back("no poses for tool '" + tools[tool].name + "': it stays where it is");
-      continue;
-    }
-    include(samples[tool].front().stamp, samples[tool].back().stamp);
   }
-  if (first == ros::TIME_MAX)
+  if (span.first == ros::TIME_MAX)
   {
     std::string reasons;
     for (const std::string& warning : poses.warnings)
@@ -259,21 +268,11 @@ BagPoses gather(rosbag::Bag& bag, const std::vector<ToolConfig>& tools,
                 reasons);
   }
   poses.warnings.insert(poses.warnings.end(), without_poses.begin(), without_poses.end());
-  poses.start = first;
-  poses.length_s = (last - first).toSec();
-  poses.tools.resize(tools.size());
-  for (std::size_t tool = 0; tool < tools.size(); ++tool)
+  poses.start = span.first;
+  poses.length_s = (span.last - span.first).toSec();
+  for (const ToolStreams& tool : streams)
   {
-    poses.joints.push_back(joints[tool].since(first));
-    poses.jaws.push_back(jaws[tool].since(first));
-  }
-  for (std::size_t tool = 0; tool < tools.size(); ++tool)
-  {
-    for (const Sample& sample : samples[tool])
-    {
-      poses.tools[tool].times_s.push_back((sample.stamp - first).toSec());
-      poses.tools[tool].samples.push_back(sample.X_WT);
-    }
+    poses.tools.push_back(toolOf(tool, poses.start));
   }
   return poses;
 }

@@ -51,6 +51,52 @@ std::string findTopic(const TopicTypes& types, const std::string& name, const st
   return found;
 }
 
+ToolTopics toolTopics(const TopicTypes& types, const soft_tissue::ToolConfig& tool)
+{
+  using PoseKind = soft_tissue::PoseSourceConfig::Kind;
+  using JointKind = soft_tissue::JointSourceConfig::Kind;
+  const auto find = [&](const std::string& name, const char* type) {
+    return findTopic(types, tool.name + "/" + name, type);
+  };
+  const auto findEither = [&](const std::string& command, const char* measured, const char* type) {
+    const std::string topic = find(command, type);
+    return topic.empty() ? find(measured, type) : topic;
+  };
+  const char* const pose_type = "geometry_msgs/PoseStamped";
+  const char* const joint_type = "sensor_msgs/JointState";
+  ToolTopics topics;
+  switch (tool.pose_source.kind)
+  {
+    case PoseKind::topic:
+      topics.pose = findEither(tool.pose_source.name, "measured_cp", pose_type);
+      break;
+    case PoseKind::twist:
+      topics.twist = find(tool.pose_source.name, "geometry_msgs/TwistStamped");
+      topics.pose = find("measured_cp", pose_type);
+      break;
+    case PoseKind::marker:
+      topics.pose = find("measured_cp", pose_type);
+      break;
+    case PoseKind::tf:
+    case PoseKind::keyframes:
+    case PoseKind::base:
+      break;
+  }
+  if (tool.linkage.coordinates().empty() || tool.joint_source.kind == JointKind::keyframes)
+  {
+    return topics;
+  }
+  if (tool.joint_source.kind == JointKind::topic)
+  {
+    topics.joints = findEither(tool.joint_source.name, "measured_js", joint_type);
+  }
+  if (tool.jaw)
+  {
+    topics.jaw = findEither(tool.jaw->topic, "jaw/measured_js", joint_type);
+  }
+  return topics;
+}
+
 void readBag(const std::string& path, const std::function<void(rosbag::Bag&)>& read)
 {
   try

@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include "soft_tissue_sim/scene/tool_config.h"
+
 namespace soft_tissue_sim
 {
 /** Names and types of a bag's topics. */
@@ -22,6 +24,19 @@ TopicTypes topicTypes(rosbag::Bag& bag);
  * @throws soft_tissue::Error if there are two, or it has another type
  */
 std::string findTopic(const TopicTypes& types, const std::string& name, const std::string& type);
+
+/** Topics of a bag that tell of a tool what its sources in the scene would tell; empty: none does.
+ */
+struct ToolTopics
+{
+  std::string pose;    ///< commands or, without any, where it was measured
+  std::string twist;   ///< commands
+  std::string joints;  ///< as `pose`, where topics tell its joints
+  std::string jaw;     ///< as `pose`
+};
+
+/** @throws soft_tissue::Error as findTopic() */
+ToolTopics toolTopics(const TopicTypes& types, const soft_tissue::ToolConfig& tool);
 
 /**
  * Opens a bag and reads it.

@@ -31,7 +31,12 @@ void CommandWatch::countAccepted()
 
 void CommandWatch::reject(Rejection rejection, const std::string& detail)
 {
-  ++rejected_[static_cast<std::size_t>(rejection)];
+  const auto kind = static_cast<std::size_t>(rejection);
+  if (quiet_ && rejected_[kind] == 0)
+  {
+    first_details_[kind] = detail;
+  }
+  ++rejected_[kind];
   warn("command rejected: " + std::string(rejectionText(rejection)) + (detail.empty() ? "" : ": ") +
        detail + " (" + std::to_string(rejectedInAll()) + " rejected so far)");
 }
@@ -46,7 +51,7 @@ void CommandWatch::noteLimit(const std::string& joint)
 void CommandWatch::warn(const std::string& text)
 {
   const double now = ros::SteadyTime::now().toSec();
-  if (last_warning_s_ < 0.0 || now - last_warning_s_ > kWarningPeriod)
+  if (!quiet_ && (last_warning_s_ < 0.0 || now - last_warning_s_ > kWarningPeriod))
   {
     last_warning_s_ = now;
     ROS_WARN_STREAM("tool '" << what_ << "': " << text);
@@ -66,6 +71,11 @@ std::uint64_t CommandWatch::rejectedInAll() const
     sum += count;
   }
   return sum;
+}
+
+const std::string& CommandWatch::firstDetail(Rejection rejection) const
+{
+  return first_details_[static_cast<std::size_t>(rejection)];
 }
 
 bool CommandWatch::stale() const

@@ -175,7 +175,7 @@ void JawInput::onState(const sensor_msgs::JointState& state)
 }
 
 JointTfInput::JointTfInput(const ToolConfig& tool, std::string prefix, JointGate& gate,
-                           const tf2_ros::Buffer& buffer, double patience_s)
+                           const tf2::BufferCore& buffer, double patience_s)
     : commands_(tool.linkage, gate),
       prefix_(std::move(prefix)),
       buffer_(buffer),
@@ -195,56 +195,94 @@ JointTfInput::JointTfInput(const ToolConfig& tool, std::string prefix, JointGate
 
 void JointTfInput::poll()
 {
-  newest_ = ros::Time();
-  for (const Link& link : links_)
+  std::string reason;
+  const Rejection rejection = lookUp(ros::Time(), reason);
+  if (rejection == Rejection::unknown_frame)
   {
-    if (!lookUp(link))
-    {
-      return;
-    }
+    onMissing(reason);
+    return;
   }
   missing_since_s_.reset();
   missing_reported_ = false;
-  if (links_.empty() || (commands_.gate().accepted() > 0 && newest_ == sent_))
+  if (links_.empty() || (newest_ == sent_ && commands_.gate().accepted() > 0))
   {
     return;
   }
+  const bool is_new = newest_ != sent_;
   sent_ = newest_;
-  commands_.send(newest_);
+  if (rejection == Rejection::none)
+  {
+    commands_.send(newest_);
+  }
+  else if (is_new)
+  {
+    commands_.gate().reject(rejection, reason);
+  }
 }
 
-bool JointTfInput::lookUp(const Link& link)
+void JointTfInput::readAt(const ros::Time& stamp)
+{
+  std::string reason;
+  const Rejection rejection = lookUp(stamp, reason);
+  if (rejection == Rejection::none)
+  {
+    commands_.send(stamp);
+    return;
+  }
+  commands_.gate().reject(
+      rejection == Rejection::unknown_frame ? Rejection::no_transform : rejection, reason);
+}
+
+std::vector<std::pair<std::string, std::string>> JointTfInput::frames() const
+{
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const Link& link : links_)
+  {
+    pairs.emplace_back(prefix_ + commands_.linkage().links()[link.parent].name,
+                       prefix_ + link.name);
+  }
+  return pairs;
+}
+
+/** Takes the joints from all frames at a time, zero: the newest of each. */
+Rejection JointTfInput::lookUp(const ros::Time& stamp, std::string& reason)
+{
+  newest_ = ros::Time();
+  for (const Link& link : links_)
+  {
+    const Rejection rejection = lookUp(link, stamp, reason);
+    if (rejection != Rejection::none)
+    {
+      return rejection;
+    }
+  }
+  return Rejection::none;
+}
+
+Rejection JointTfInput::lookUp(const Link& link, const ros::Time& stamp, std::string& reason)
 {
   geometry_msgs::TransformStamped transform;
   try
   {
     transform = buffer_.lookupTransform(prefix_ + commands_.linkage().links()[link.parent].name,
-                                        prefix_ + link.name, ros::Time());
+                                        prefix_ + link.name, stamp);
   }
   catch (const std::exception& error)  // tf lets those of ros::Time through
   {
-    onMissing(error.what());
-    return false;
+    reason = error.what();
+    return Rejection::unknown_frame;
   }
+  newest_ = std::max(newest_, transform.header.stamp);
   double& angle = angles_[link.coordinate];
   const std::optional<double> value = jointValue(link, poseFromMessage(transform.transform), angle);
   if (!value)
   {
-    const bool is_new = transform.header.stamp != sent_;
-    if (is_new)
-    {
-      sent_ = transform.header.stamp;
-      commands_.gate().reject(Rejection::other_motion, "'" + prefix_ + link.name + "'");
-    }
-    return false;
-  }
-  if (newest_ < transform.header.stamp)
-  {
-    newest_ = transform.header.stamp;
+    reason = "'" + prefix_ + link.name + "'";
+    return Rejection::other_motion;
   }
   angle = *value;
   commands_.set(link.coordinate, (*value - link.offset) / link.factor);
-  return true;
+  return Rejection::none;
 }
 
 void JointTfInput::onMissing(const std::string& reason)

@@ -18,21 +18,31 @@ void PhysicsLoop::setPaused(bool paused)
   });
 }
 
-std::optional<double> PhysicsLoop::step(std::uint32_t steps)
+std::optional<PhysicsLoop::Stepped> PhysicsLoop::step(std::uint32_t steps, const StepSeen& seen)
 {
-  std::optional<double> time;
-  execute([this, steps, &time] {
+  std::optional<Stepped> stepped;
+  execute([&] {
     if (!counters_.paused)
     {
       return;
     }
-    for (std::uint32_t i = 0; i < steps && !stopping_; ++i)
+    stepped.emplace();
+    asked_for_ = Asked::steps;
+    while (stepped->steps < steps && !stopping_ && asked_for_ == Asked::steps)
     {
       advance(true);
+      seen(++stepped->steps);
     }
-    time = scene_.time();
+    asked_for_ = Asked::nothing;
+    stepped->time_s = scene_.time();
   });
-  return time;
+  return stepped;
+}
+
+bool PhysicsLoop::cancelSteps()
+{
+  Asked asked = Asked::steps;
+  return asked_for_.compare_exchange_strong(asked, Asked::an_end) || asked == Asked::an_end;
 }
 
 void PhysicsLoop::resetWorld()

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/node/physics_loop.h"
 #include "soft_tissue_sim/node/scene_loader.h"
-#include "soft_tissue_sim/node/scratch_folder.h"
 
 namespace soft_tissue_sim
 {
@@ -46,11 +46,12 @@ void placeTools(SceneConfig& config, const BagPoses& poses)
 {
   for (std::size_t tool = 0; tool < config.tools.size(); ++tool)
   {
-    if (!poses.tools[tool].empty())
+    if (poses.tools[tool].first_pose)
     {
-      config.tools[tool].initial_pose = poseConfig(poses.tools[tool].samples.front());
+      config.tools[tool].initial_pose = poseConfig(*poses.tools[tool].first_pose);
     }
-    for (const soft_tissue::JointSeries* values : {&poses.joints[tool], &poses.jaws[tool]})
+    for (const soft_tissue::JointSeries* values :
+         {&poses.tools[tool].joints, &poses.tools[tool].jaw})
     {
       if (!values->empty())
       {
@@ -90,19 +91,27 @@ std::uint64_t stepCount(const RunOptions& options, const SceneConfig& config, co
   return static_cast<std::uint64_t>(std::ceil(duration / config.time_step_s - kRounding));
 }
 
-void setTargets(soft_tissue::Scene& scene, const BagPoses& poses, double time_s)
+/** Sends tools to where the bag has them at the end of a step. */
+void setTargets(soft_tissue::Scene& scene, const BagPoses& poses, double begin_s, double end_s)
 {
+  const double hold_s = PhysicsLoop::Config().watchdog_s;
   for (std::size_t tool = 0; tool < poses.tools.size(); ++tool)
   {
-    if (!poses.tools[tool].empty())
+    const BagTool& told = poses.tools[tool];
+    if (!told.poses.empty())
     {
-      scene.setToolTarget(tool, poses.tools[tool].at(time_s));
+      scene.setToolTarget(tool, told.poses.at(end_s));
     }
-    for (const soft_tissue::JointSeries* values : {&poses.joints[tool], &poses.jaws[tool]})
+    if (!told.twists.empty())
+    {
+      scene.setToolTarget(tool,
+                          movedAlong(scene.toolPose(tool), told.twists, begin_s, end_s, hold_s));
+    }
+    for (const soft_tissue::JointSeries* values : {&told.joints, &told.jaw})
     {
       if (!values->empty())
       {
-        scene.setJointTargets(tool, values->at(time_s));
+        scene.setJointTargets(tool, values->at(end_s));
       }
     }
   }
@@ -116,8 +125,8 @@ Replay readReplay(const RunOptions& options)
   soft_tissue::setThreadCount(options.threads > 0 ? options.threads : processors);
   Replay replay;
   replay.config = loadConfig(options.scene);
-  const ScratchFolder scratch;
-  readUrdfs(replay.config, scratch);  // the bag's joints are those of their linkages
+  replay.scratch = std::make_shared<ScratchFolder>();
+  readUrdfs(replay.config, *replay.scratch);  // the bag's joints are those of their linkages
   if (!options.bag_in.empty())
   {
     replay.poses = readBagPoses(options.bag_in, replay.config.tools, options.world_frame);
@@ -150,7 +159,7 @@ void runReplay(soft_tissue::Scene& scene, const Replay& replay,
     {
       replay.maps[k].apply(step == 1 ? -1.0 : begin, end, k, scene);
     }
-    setTargets(scene, replay.poses, end);
+    setTargets(scene, replay.poses, begin, end);
     scene.step();
     scene.fillSnapshot(snapshot);
     if (!seen(snapshot))

@@ -58,7 +58,10 @@ std::string runUsage()
          "Runs a scene as fast as possible, without a roscore.\n\n"
          "  --duration S         simulated seconds; default: the bag's length or the last key "
          "frame\n"
-         "  --bag-in FILE        tool poses: .../<tool>/servo_cp or .../<tool>/measured_cp\n"
+         "  --bag-in FILE        what moves tools, and obstacles' maps: topics named "
+         ".../<tool>/servo_cp\n"
+         "                       and so on, else .../<tool>/measured_cp and so on, and tf\n"
+         "  --list-inputs        print those topics and what a node takes them as, and end\n"
          "  --bag-out FILE       meshes, states, poses, forces, contacts and stats\n"
          "  --state-rate HZ      most tissue states a simulated second in that bag; 0: every step\n"
          "  --csv FILE           one line a step\n"
@@ -104,6 +107,7 @@ RunOptions parseRunOptions(const std::vector<std::string>& arguments)
        {"--threads",
         [&](const auto& name, const auto& text) { options.threads = parseCount(name, text); }}};
   const std::map<std::string, bool*> flags = {{"--quiet", &options.quiet},
+                                              {"--list-inputs", &options.list_inputs},
                                               {"--describe-schema", &options.describe_schema},
                                               {"--help", &options.help},
                                               {"-h", &options.help}};
@@ -144,6 +148,10 @@ RunOptions parseRunOptions(const std::vector<std::string>& arguments)
   if (options.bag_in.empty() && (!options.compare.empty() || !options.identify.empty()))
   {
     throw UsageError("--compare and --identify need forces from --bag-in");
+  }
+  if (options.bag_in.empty() && options.list_inputs)
+  {
+    throw UsageError("--list-inputs needs --bag-in");
   }
   if (!options.identify.empty() &&
       !(options.bag_out.empty() && options.csv.empty() && options.compare.empty()))

@@ -33,9 +33,26 @@ double nearestRank(std::vector<double> values, double fraction)
   return *place;
 }
 
+void writeInput(const StreamCounts& input, JsonWriter& json)
+{
+  json.beginObject().value("of", input.of).value("topic", input.topic);
+  json.value("messages", std::uint64_t{input.messages});
+  json.value("used", std::uint64_t{input.used});
+  json.value("out_of_order", std::uint64_t{input.out_of_order});
+  json.value("beyond_limits", std::uint64_t{input.beyond_limits});
+  json.beginArray("rejected");
+  for (const auto& [reason, count] : input.rejected)
+  {
+    json.beginObject().value("reason", reason);
+    json.value("messages", std::uint64_t{count}).endObject();
+  }
+  json.endArray().endObject();
+}
+
 }  // namespace
 
-RunSummary::RunSummary(const soft_tissue::SceneConfig& config, const SceneInfo& info)
+RunSummary::RunSummary(const soft_tissue::SceneConfig& config, const SceneInfo& info,
+                       const BagPoses& bag)
     : scene_(config.file), time_step_s_(config.time_step_s)
 {
   for (const soft_tissue::TissueInfo& tissue : info.tissues)
@@ -46,7 +63,11 @@ RunSummary::RunSummary(const soft_tissue::SceneConfig& config, const SceneInfo& 
   }
   for (const soft_tissue::ToolInfo& tool : info.tools)
   {
-    tools_.push_back({tool.name, {}});
+    tools_.push_back({tool.name, {}, {}});
+  }
+  for (std::size_t tool = 0; tool < bag.tools.size(); ++tool)
+  {
+    tools_[tool].inputs = bag.tools[tool].counts;
   }
   for (const TissuePairInfo& pair : info.tissue_pairs)
   {
@@ -166,7 +187,12 @@ std::string RunSummary::json(double wall_s, const WrenchComparison* comparison) 
   {
     json.beginObject().value("name", tool.name);
     write(tool.force, json);
-    json.endObject();
+    json.beginArray("inputs");
+    for (const StreamCounts& input : tool.inputs)
+    {
+      writeInput(input, json);
+    }
+    json.endArray().endObject();
   }
   json.endArray().beginArray("tissue_pairs");
   for (const Pair& pair : pairs_)

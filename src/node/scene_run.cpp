@@ -153,7 +153,7 @@ bool runScene(const RunOptions& options, const std::atomic<bool>* interrupted)
   scene.fillSnapshot(start);
   const std::uint64_t done = start.report.step, last = replay.lastStep(done);
   const SceneInfo info(scene);
-  Recorders recorders{RunSummary(replay.config, info), nullptr, nullptr, nullptr};
+  Recorders recorders{RunSummary(replay.config, info, replay.poses), nullptr, nullptr, nullptr};
   if (!options.bag_out.empty())
   {
     recorders.bag = std::make_unique<BagRecorder>(options.bag_out, info, options.world_frame,

@@ -6,7 +6,8 @@
 
 namespace soft_tissue_sim
 {
-SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene)
+SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene,
+                 ProgressTopic& progress)
     : node_(node),
       params_(params),
       info_(scene),
@@ -28,7 +29,7 @@ SimNode::SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tis
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->update(); });
   publisher_.start();
   loop_.start();
-  services_ = std::make_unique<SimServices>(node_, info_, params_.publish_clock, loop_);
+  services_ = std::make_unique<SimServices>(node_, info_, params_.publish_clock, loop_, progress);
   attach_services_ = std::make_unique<AttachServices>(node_, info_, loop_);
 }
 

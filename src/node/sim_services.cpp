@@ -9,21 +9,6 @@ namespace soft_tissue_sim
 {
 namespace
 {
-/** Does what may be refused. */
-template <typename Act, typename Response>
-void answer(const Act& act, Response& response)
-{
-  try
-  {
-    act();
-    response.success = true;
-  }
-  catch (const soft_tissue::Error& error)
-  {
-    response.message = error.what();
-  }
-}
-
 /** Where a node's relative paths begin is nobody's choice. */
 void checkPath(const std::string& path)
 {
@@ -48,9 +33,16 @@ std::optional<double> given(double value)
 }  // namespace
 
 SimServices::SimServices(const ros::NodeHandle& node, const SceneInfo& info, bool owns_clock,
-                         PhysicsLoop& loop)
-    : info_(info), loop_(loop), node_(node), spinner_(1, &queue_)
+                         PhysicsLoop& loop, ProgressTopic& progress)
+    : info_(info),
+      loop_(loop),
+      progress_(progress),
+      node_(node),
+      spinner_(1, &queue_),
+      cancel_spinner_(1, &cancel_queue_)
 {
+  node_.setCallbackQueue(&cancel_queue_);
+  servers_.push_back(node_.advertiseService("cancel", &SimServices::cancel, this));
   node_.setCallbackQueue(&queue_);
   servers_.push_back(node_.advertiseService("pause_physics", &SimServices::pause, this));
   servers_.push_back(node_.advertiseService("unpause_physics", &SimServices::unpause, this));
@@ -65,6 +57,25 @@ SimServices::SimServices(const ros::NodeHandle& node, const SceneInfo& info, boo
   servers_.push_back(node_.advertiseService("load_state", &SimServices::load, this));
   servers_.push_back(node_.advertiseService("set_material", &SimServices::setMaterial, this));
   spinner_.start();
+  cancel_spinner_.start();
+}
+
+/** Does what may be refused, and tells of it as of a task. */
+template <typename Act, typename Response>
+void SimServices::answer(const char* task, const Act& act, Response& response)
+{
+  progress_.begin(task, 0);
+  try
+  {
+    act();
+    response.success = true;
+    progress_.end(Progress::DONE);
+  }
+  catch (const soft_tissue::Error& error)
+  {
+    response.message = error.what();
+    progress_.end(Progress::FAILED, error.what());
+  }
 }
 
 bool SimServices::pause(std_srvs::Empty::Request&, std_srvs::Empty::Response&)
@@ -86,10 +97,30 @@ bool SimServices::step(Step::Request& request, Step::Response& response)
     response.message = "steps = 0, must be at least 1";
     return true;
   }
-  const std::optional<double> time = loop_.step(request.steps);
-  response.success = time.has_value();
-  response.time = time.value_or(0.0);
-  response.message = time ? "" : "the simulation is running: call pause_physics first";
+  progress_.begin("step", request.steps);
+  const std::optional<PhysicsLoop::Stepped> stepped =
+      loop_.step(request.steps, [this](std::uint32_t done) { progress_.advance(done); });
+  if (!stepped)
+  {
+    response.message = "the simulation is running: call pause_physics first";
+    progress_.end(Progress::FAILED, response.message);
+    return true;
+  }
+  response.success = stepped->steps == request.steps;
+  response.time = stepped->time_s;
+  if (!response.success)
+  {
+    response.message = "cancelled after " + std::to_string(stepped->steps) + " of " +
+                       std::to_string(request.steps) + " steps";
+  }
+  progress_.end(response.success ? Progress::DONE : Progress::CANCELLED, response.message);
+  return true;
+}
+
+bool SimServices::cancel(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response)
+{
+  response.success = loop_.cancelSteps();
+  response.message = response.success ? "" : "no steps are under way that were asked for";
   return true;
 }
 
@@ -108,6 +139,7 @@ bool SimServices::resetSimulation(std_srvs::Empty::Request&, std_srvs::Empty::Re
 bool SimServices::save(SaveState::Request& request, SaveState::Response& response)
 {
   answer(
+      "save_state",
       [&] {
         checkPath(request.path);
         tell(loop_.saveState(request.path), response);
@@ -119,6 +151,7 @@ bool SimServices::save(SaveState::Request& request, SaveState::Response& respons
 bool SimServices::load(LoadState::Request& request, LoadState::Response& response)
 {
   answer(
+      "load_state",
       [&] {
         checkPath(request.path);
         tell(loop_.loadState(request.path), response);
@@ -147,7 +180,9 @@ bool SimServices::setMaterial(SetMaterial::Request& request, SetMaterial::Respon
   change.poisson_ratio = given(request.poisson_ratio);
   change.density_kg_per_m3 = given(request.density);
   change.stiffening = given(request.stiffening);
-  answer([&] { loop_.setMaterial(found - info_.tissue_names.begin(), change); }, response);
+  answer(
+      "set_material", [&] { loop_.setMaterial(found - info_.tissue_names.begin(), change); },
+      response);
   return true;
 }
 

@@ -2,20 +2,16 @@
 
 #include <ros/console.h>
 
-#include <Eigen/Geometry>
 #include <boost/shared_ptr.hpp>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <string>
+
+#include "soft_tissue_sim/node/transform_check.h"
 
 namespace soft_tissue_sim
 {
 namespace
 {
 constexpr int kQueue = 100;
-/** Stamps after this second, in the year 2038, overflow where tf takes others from them. */
-constexpr std::uint32_t kLastSecond = std::numeric_limits<std::int32_t>::max() - 3600;
 
 geometry_msgs::TransformStamped plain(
     const geometry_msgs::TransformStamped_<BoundedAllocator<void>>& bounded)
@@ -34,23 +30,6 @@ geometry_msgs::TransformStamped plain(
   transform.transform.rotation.z = r.z;
   transform.transform.rotation.w = r.w;
   return transform;
-}
-
-/** Why tf would refuse a transform, or should: it tells each time, for as many as come. Empty: it
- * takes it. */
-std::string refusalOf(const geometry_msgs::TransformStamped& transform)
-{
-  const auto& t = transform.transform.translation;
-  const auto& r = transform.transform.rotation;
-  const Eigen::Quaterniond rotation(r.w, r.x, r.y, r.z);
-  constexpr double kUnit = 0.01;  // as tf has it
-  return transform.header.frame_id.empty() || transform.child_frame_id.empty()
-             ? "a frame has no name"
-         : transform.header.frame_id == transform.child_frame_id ? "a frame in itself"
-         : !std::isfinite(t.x + t.y + t.z)                       ? "not finite"
-         : !(std::abs(rotation.squaredNorm() - 1.0) <= kUnit)    ? "quaternion not unit"
-         : transform.header.stamp.sec > kLastSecond ? "its stamp is beyond the end of time"
-                                                    : "";
 }
 }  // namespace
 
@@ -81,7 +60,7 @@ void TfListener::take(const Message& message, bool is_static)
   for (const auto& bounded : message.transforms)
   {
     const geometry_msgs::TransformStamped transform = plain(bounded);
-    const std::string refusal = refusalOf(transform);
+    const std::string refusal = transformRefusal(transform);
     if (refusal.empty())
     {
       buffer_.setTransform(transform, "tf", is_static);

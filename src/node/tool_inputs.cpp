@@ -44,7 +44,7 @@ Rejection TwistInput::take(const geometry_msgs::TwistStamped& command,
   return Rejection::none;
 }
 
-TfInput::TfInput(std::string frame, PoseGate& gate, const tf2_ros::Buffer& buffer,
+TfInput::TfInput(std::string frame, PoseGate& gate, const tf2::BufferCore& buffer,
                  std::string world_frame, double patience_s)
     : frame_(std::move(frame)),
       gate_(gate),

@@ -84,9 +84,33 @@ class ReplayTest(unittest.TestCase):
             self.assertEqual(summary["steps"], 12000)
             self.assertEqual(summary["steps_held"], 0)
             self.assertGreater(summary["tools"][0]["peak_force_n"], 0.05)
+            self.assertEqual(summary["tools"][0]["inputs"], [
+                {"of": "pose", "topic": "/probe/servo_cp", "messages": 60001, "used": 60001, "out_of_order": 0,
+                 "beyond_limits": 0, "rejected": []}])
             hashes.append(summary["state_hash"])
         print("  60 s of poses at 1 kHz: %s" % ", ".join(hashes))
         self.assertEqual(len(set(hashes)), 1)
+
+    def test_what_is_lost_of_a_spoilt_bag_is_told(self):
+        message = PoseStamped()
+        message.pose.orientation.w = 1.0
+        stamps = list(range(100, 200)) + [150, 150, 199, 120.5, 200]
+        with rosbag.Bag(self.path("poses.bag"), "w") as bag:
+            for number, stamp in enumerate(stamps):
+                message.header.stamp = rospy.Time(stamp)
+                message.pose.position.z = math.nan if stamp in (110, 120) else 0.06
+                bag.write("/probe/servo_cp", message, rospy.Time(1000 + number))
+        run = self.start("--duration", "0.01", "--json", self.path("run.json"))
+        _, said = run.communicate(timeout=PATIENCE_S)
+        self.assertEqual(run.returncode, 0, said)
+        with open(self.path("run.json")) as stream:
+            told, = json.load(stream)["tools"][0]["inputs"]
+        rejected = {one["reason"]: one["messages"] for one in told.pop("rejected")}
+        self.assertEqual(told, {"of": "pose", "topic": "/probe/servo_cp", "messages": 105, "used": 100,
+                                "out_of_order": 3, "beyond_limits": 0})
+        self.assertEqual(rejected, {"NaN or infinity in it": 2, "another one after it has the same stamp": 3})
+        for reason, count in rejected.items():
+            self.assertIn("/probe/servo_cp (pose): %d of 105 left out: %s" % (count, reason), said)
 
     def test_a_killed_run_leaves_a_bag_to_reindex(self):
         self.record(60.0, 50)

@@ -22,6 +22,9 @@ class CommandWatch
    * which what it moves counts as held */
   CommandWatch(std::string what, double watchdog_s);
 
+  /** From now on counts alone tell what is refused: for recordings, which are summed up. */
+  void beQuiet() { quiet_ = true; }
+
   /** Counts the rejection and warns of it, at most once a second. */
   void reject(Rejection rejection, const std::string& detail);
   /** The same of a command that was obeyed as far as a joint's limits let it. */
@@ -31,6 +34,8 @@ class CommandWatch
   std::uint64_t accepted() const { return accepted_; }
   std::uint64_t rejected(Rejection rejection) const;
   std::uint64_t rejectedInAll() const;
+  /** What was said of the first one that was rejected so; kept only where it is quiet. */
+  const std::string& firstDetail(Rejection rejection) const;
   std::uint64_t limited() const { return limited_; }
   /** Whether commands came and then stopped for longer than the watchdog allows, or the clock went
    * back since. */
@@ -46,8 +51,10 @@ class CommandWatch
 
   std::string what_;
   double watchdog_s_;
+  bool quiet_ = false;
   double last_warning_s_ = -1.0;  ///< steady clock
   std::array<std::atomic<std::uint64_t>, kRejectionCount> rejected_{};
+  std::array<std::string, kRejectionCount> first_details_;
   std::atomic<std::uint64_t> accepted_{0}, limited_{0};
   std::atomic<double> last_accepted_s_{0.0};
 };

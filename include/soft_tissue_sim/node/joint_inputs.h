@@ -3,10 +3,11 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/JointState.h>
-#include <tf2_ros/buffer.h>
+#include <tf2/buffer_core.h>
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "soft_tissue_sim/node/command_gate.h"
@@ -74,19 +75,25 @@ class JointTfInput
   /** @param prefix      what stands before the names of links in those of their frames
    * @param patience_s  as of TfInput */
   JointTfInput(const soft_tissue::ToolConfig& tool, std::string prefix, JointGate& gate,
-               const tf2_ros::Buffer& buffer, double patience_s);
+               const tf2::BufferCore& buffer, double patience_s);
 
-  /** Looks the frames up; what is not new is not a command. */
+  /** Looks the newest frames up; what is not new is not a command. */
   void poll();
+  /** The command that the frames gave at a time; they must all be known then. */
+  void readAt(const ros::Time& stamp);
+
+  /** The links whose joints are told so: pairs of frames, of what each hangs on and its own. */
+  std::vector<std::pair<std::string, std::string>> frames() const;
 
  private:
-  bool lookUp(const soft_tissue::Link& link);
+  Rejection lookUp(const ros::Time& stamp, std::string& reason);
+  Rejection lookUp(const soft_tissue::Link& link, const ros::Time& stamp, std::string& reason);
   void onMissing(const std::string& reason);
 
   JointCommands commands_;
   std::vector<soft_tissue::Link> links_;  ///< one that tells of each joint but the jaw's
   std::string prefix_;
-  const tf2_ros::Buffer& buffer_;
+  const tf2::BufferCore& buffer_;
   double patience_s_;
   std::vector<double> angles_;  ///< per joint, last seen, so that turns are counted
   ros::Time newest_, sent_;

@@ -95,9 +95,18 @@ class PhysicsLoop
                    const soft_tissue::Pose& X_WO);
 
   void setPaused(bool paused);
-  /** Steps a paused loop; waits for the last one. @return simulated time, empty if it is not paused
-   */
-  std::optional<double> step(std::uint32_t steps);
+  /** How far steps that were asked for came. */
+  struct Stepped
+  {
+    std::uint32_t steps = 0;
+    double time_s = 0.0;  ///< simulated, at the end of the last one
+  };
+  /** Called after each step with how many are done, in the physics thread. */
+  using StepSeen = std::function<void(std::uint32_t done)>;
+  /** Steps a paused loop; waits for the last one. @return nothing if it is not paused */
+  std::optional<Stepped> step(std::uint32_t steps, const StepSeen& seen);
+  /** Ends a step() after the step it is in. From any thread. @return whether there is one */
+  bool cancelSteps();
   /** Rest shape and initial tool poses; commands given before are forgotten; time goes on. */
   void resetWorld();
   /** The same, and time begins again at zero. */
@@ -150,6 +159,13 @@ class PhysicsLoop
   StepSchedule schedule_;
   bool clock_started_ = false;
   RealTimeMeter meter_;
+  enum class Asked
+  {
+    nothing,
+    steps,
+    an_end
+  };
+  std::atomic<Asked> asked_for_{Asked::nothing};  ///< of step() under way
   std::uint64_t resets_ = 0;
   ros::Time stamp_;
 

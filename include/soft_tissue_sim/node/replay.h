@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "soft_tissue_sim/node/bag_maps.h"
 #include "soft_tissue_sim/node/bag_poses.h"
 #include "soft_tissue_sim/node/run_options.h"
+#include "soft_tissue_sim/node/scratch_folder.h"
 #include "soft_tissue_sim/scene/scene.h"
 
 namespace soft_tissue_sim
@@ -16,8 +18,9 @@ namespace soft_tissue_sim
 struct Replay
 {
   soft_tissue::SceneConfig config;
-  BagPoses poses;             ///< no tools if there is no bag
-  std::vector<BagMaps> maps;  ///< per obstacle; none if there is no bag
+  std::shared_ptr<const ScratchFolder> scratch;  ///< has meshes that the config names
+  BagPoses poses;                                ///< no tools if there is no bag
+  std::vector<BagMaps> maps;                     ///< per obstacle; none if there is no bag
   std::uint64_t steps = 0;
   bool from_now = false;  ///< so many more, wherever the scene is; else counted from its start
 

@@ -32,6 +32,7 @@ struct RunOptions
   double state_rate_hz = 30.0;  ///< most tissue states a simulated second in the bag; 0: every step
   int threads = 0;              ///< 0: one per processor
   bool quiet = false;
+  bool list_inputs = false;  ///< of the bag, in place of running
   bool describe_schema = false;
   bool help = false;
 };

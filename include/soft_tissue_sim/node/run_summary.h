@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "soft_tissue_sim/node/bag_poses.h"
 #include "soft_tissue_sim/node/scene_info.h"
 
 namespace soft_tissue_sim
@@ -14,7 +15,8 @@ class WrenchComparison;
 class RunSummary
 {
  public:
-  RunSummary(const soft_tissue::SceneConfig& config, const SceneInfo& info);
+  /** @param bag  what a bag told of the tools; without tools if there is none */
+  RunSummary(const soft_tissue::SceneConfig& config, const SceneInfo& info, const BagPoses& bag);
 
   void add(const soft_tissue::Snapshot& snapshot);
 
@@ -49,6 +51,7 @@ class RunSummary
   struct Tool
   {
     std::string name;
+    std::vector<StreamCounts> inputs;  ///< of the bag
     Force force;
   };
   struct Pair

@@ -13,6 +13,7 @@
 #include "soft_tissue_sim/node/inputs.h"
 #include "soft_tissue_sim/node/node_params.h"
 #include "soft_tissue_sim/node/octomap_topics.h"
+#include "soft_tissue_sim/node/progress_topic.h"
 #include "soft_tissue_sim/node/sim_services.h"
 #include "soft_tissue_sim/node/tissue_topics.h"
 #include "soft_tissue_sim/node/tool_topics.h"
@@ -25,9 +26,11 @@ class SimNode
  public:
   /**
    * @param node  handle whose namespace all topics, services and parameters are in
+   * @param progress  must outlive it
    * @throws soft_tissue::Error if the scene and the parameters can't be used together
    */
-  SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene);
+  SimNode(const ros::NodeHandle& node, const NodeParams& params, soft_tissue::Scene scene,
+          ProgressTopic& progress);
   ~SimNode();
 
   /** Whether the physics had to end for an exception. */

@@ -9,21 +9,23 @@
 #include <soft_tissue_sim/SetMaterial.h>
 #include <soft_tissue_sim/Step.h>
 #include <std_srvs/Empty.h>
+#include <std_srvs/Trigger.h>
 
 #include "soft_tissue_sim/node/physics_loop.h"
+#include "soft_tissue_sim/node/progress_topic.h"
 #include "soft_tissue_sim/node/scene_info.h"
 
 namespace soft_tissue_sim
 {
 /** Services that act on the physics as a whole, answered one after the other: `pause_physics`,
  * `unpause_physics`, `step`, `reset_world`, `reset_simulation`, `save_state`, `load_state` and
- * `set_material`. */
+ * `set_material`; and at any time `cancel`. */
 class SimServices
 {
  public:
   /** @param owns_clock  only then time can begin again: there is `reset_simulation` */
   SimServices(const ros::NodeHandle& node, const SceneInfo& info, bool owns_clock,
-              PhysicsLoop& loop);
+              PhysicsLoop& loop, ProgressTopic& progress);
 
  private:
   bool pause(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
@@ -35,13 +37,19 @@ class SimServices
   bool save(SaveState::Request& request, SaveState::Response& response);
   bool load(LoadState::Request& request, LoadState::Response& response);
   bool setMaterial(SetMaterial::Request& request, SetMaterial::Response& response);
+  bool cancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+
+  template <typename Act, typename Response>
+  void answer(const char* task, const Act& act, Response& response);
 
   const SceneInfo& info_;
   PhysicsLoop& loop_;
+  ProgressTopic& progress_;
   ros::CallbackQueue queue_;  ///< its own: a long step holds no command up
+  ros::CallbackQueue cancel_queue_;
   ros::NodeHandle node_;
   std::vector<ros::ServiceServer> servers_;
-  ros::AsyncSpinner spinner_;
+  ros::AsyncSpinner spinner_, cancel_spinner_;
 };
 
 }  // namespace soft_tissue_sim

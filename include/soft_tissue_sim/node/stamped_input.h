@@ -2,7 +2,8 @@
 
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
-#include <tf2_ros/buffer.h>
+#include <tf2/buffer_core.h>
+#include <tf2/exceptions.h>
 
 #include <deque>
 #include <exception>
@@ -17,7 +18,7 @@ namespace soft_tissue_sim
 /** Where frames of commands are looked up. */
 struct FrameLookup
 {
-  const tf2_ros::Buffer& buffer;
+  const tf2::BufferCore& buffer;
   std::string world_frame;
   double wait_s;  ///< how long a command may wait for the transform at its stamp
 };
@@ -137,12 +138,12 @@ class StampedInput
         {
           return Resolved::not_yet;
         }
-        watch_.reject(Rejection::no_transform, error.what());
+        watch_.reject(Rejection::no_transform, "frame '" + frame + "': " + error.what());
         return Resolved::refused;
       }
       catch (const std::exception& error)  // tf lets those of ros::Time through
       {
-        watch_.reject(Rejection::unknown_frame, error.what());
+        watch_.reject(Rejection::unknown_frame, "frame '" + frame + "': " + error.what());
         return Resolved::refused;
       }
     }

@@ -49,7 +49,7 @@ class TfInput
  public:
   /** @param patience_s  how long the frame may be missing, at the start or later, until that is
    * counted as a rejection, once */
-  TfInput(std::string frame, PoseGate& gate, const tf2_ros::Buffer& buffer, std::string world_frame,
+  TfInput(std::string frame, PoseGate& gate, const tf2::BufferCore& buffer, std::string world_frame,
           double patience_s);
 
   /** Looks the frame up; what is not new is not a command. */
@@ -60,7 +60,7 @@ class TfInput
 
   std::string frame_;
   PoseGate& gate_;
-  const tf2_ros::Buffer& buffer_;
+  const tf2::BufferCore& buffer_;
   std::string world_frame_;
   double patience_s_;
   ros::Time last_stamp_;

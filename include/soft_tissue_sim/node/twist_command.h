@@ -3,7 +3,7 @@
 #include <mutex>
 #include <optional>
 
-#include "soft_tissue_sim/base/types.h"
+#include "soft_tissue_sim/base/series.h"
 
 namespace soft_tissue_sim
 {
@@ -18,6 +18,15 @@ struct Twist
 /** Where a frame is after going on for so long, s: exactly so while its velocity and turn rate
  * stay the same in the axes they are given in, for the rotation; its origin goes straight. */
 soft_tissue::Pose moved(const soft_tissue::Pose& X_WT, const Twist& twist, double duration_s);
+
+using TwistSeries = soft_tissue::Series<Twist>;
+
+/**
+ * Where a frame is at the end of a span of time, s, in which each command counts from its time to
+ * that of the next, but for `hold_s` at most.
+ */
+soft_tissue::Pose movedAlong(const soft_tissue::Pose& X_WT, const TwistSeries& commands,
+                             double begin_s, double end_s, double hold_s);
 
 /** The velocity command for one tool, between the callbacks and the physics thread. */
 class TwistCommand

@@ -3,12 +3,15 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
 #include <fstream>
 
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/node/bag_poses.h"
+#include "soft_tissue_sim/node/command_check.h"
+#include "soft_tissue_sim/node/geometry_conversions.h"
 #include "soft_tissue_sim/node/scene_run.h"
 #include "soft_tissue_sim/node/scratch_folder.h"
 #include "support/forceps.h"
@@ -63,16 +66,19 @@ TEST_F(BagJoints, comeInTheOrderOfTheirStampsAndStayUntilNamedAgain)
   const BagPoses poses = read();
   EXPECT_EQ(poses.start, ros::Time(10.0));
   EXPECT_DOUBLE_EQ(poses.length_s, 2.0);
-  ASSERT_EQ(poses.joints.size(), 1u);
-  EXPECT_EQ(poses.joints[0].times_s, (std::vector<double>{0.0, 2.0}));
-  EXPECT_EQ(poses.joints[0].samples[1][0], 0.001);
-  EXPECT_EQ(poses.joints[0].samples[1][1], 0.002);
-  EXPECT_TRUE(std::isnan(poses.joints[0].samples[0][1]));
-  EXPECT_TRUE(poses.jaws[0].empty());
+  ASSERT_EQ(poses.tools.size(), 1u);
+  EXPECT_EQ(poses.tools[0].joints.times_s, (std::vector<double>{0.0, 2.0}));
+  EXPECT_EQ(poses.tools[0].joints.samples[1][0], 0.001);
+  EXPECT_EQ(poses.tools[0].joints.samples[1][1], 0.002);
+  EXPECT_TRUE(std::isnan(poses.tools[0].joints.samples[0][1]));
+  EXPECT_TRUE(poses.tools[0].jaw.empty());
   ASSERT_EQ(poses.warnings.size(), 2u);
   EXPECT_EQ(poses.warnings[0],
-            "/psm/forceps/joint_states: 1 messages left out: no finite positions of the tool's "
-            "joints");
+            "/psm/forceps/joint_states (joints): 1 of 3 left out: NaN or infinity in it");
+  ASSERT_EQ(poses.tools[0].counts.size(), 1u);
+  EXPECT_EQ(poses.tools[0].counts[0].messages, 3u);
+  EXPECT_EQ(poses.tools[0].counts[0].used, 2u);
+  EXPECT_EQ(poses.tools[0].counts[0].out_of_order, 1u);
 }
 
 TEST_F(BagJoints, aJawIsReadFromItsCommandsOrFromWhereItWas)
@@ -82,9 +88,50 @@ TEST_F(BagJoints, aJawIsReadFromItsCommandsOrFromWhereItWas)
   write("/forceps/jaw/measured_js", 1.0, state(0.0, {"jaw"}, {0.01}));
   write("/forceps/jaw/measured_js", 2.0, state(0.0, {"jaw"}, {0.02}));
   const BagPoses poses = read();
-  EXPECT_EQ(poses.jaws[0].times_s, (std::vector<double>{0.0, 1.0}));
-  EXPECT_EQ(poses.jaws[0].samples[1][1], 0.01);
-  EXPECT_TRUE(poses.joints[0].empty());
+  EXPECT_EQ(poses.tools[0].jaw.times_s, (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(poses.tools[0].jaw.samples[1][1], 0.01);
+  EXPECT_TRUE(poses.tools[0].joints.empty());
+}
+
+TEST_F(BagJoints, areToldByTheFramesOfTheLinks)
+{
+  tool_.joint_source.kind = soft_tissue::JointSourceConfig::Kind::tf;
+  tool_.joint_source.name = "arm_";
+  const auto publish = [&](double stamp, const soft_tissue::JointValues& values, double beside) {
+    tf2_msgs::TFMessage message;
+    for (std::size_t link = 1; link < tool_.linkage.links().size(); ++link)
+    {
+      soft_tissue::Pose X = tool_.linkage.pose(0, link, values);
+      X.translation().y() += beside;
+      message.transforms.emplace_back();
+      message.transforms.back().header.frame_id = "arm_palm";
+      message.transforms.back().header.stamp = ros::Time(stamp);
+      message.transforms.back().child_frame_id = "arm_" + tool_.linkage.links()[link].name;
+      message.transforms.back().transform = transformMessage(X);
+    }
+    bag_.write("/tf", ros::Time(stamp), message);
+  };
+  soft_tissue::JointValues values(2);
+  for (int i = 0; i < 4; ++i)
+  {
+    values << 0.001 * i, 0.002 * i;
+    publish(10.0 + 0.1 * i, values, i == 2 ? 0.01 : 0.0);
+  }
+  const BagPoses poses = read();
+  EXPECT_EQ(poses.start, ros::Time(10.0));
+  const soft_tissue::JointSeries& joints = poses.tools[0].joints;
+  ASSERT_EQ(joints.times_s.size(), 3u);
+  const double steps[] = {0.0, 1.0, 3.0};
+  for (int k = 0; k < 3; ++k)
+  {
+    EXPECT_NEAR(joints.times_s[k], 0.1 * steps[k], 1e-9);
+    EXPECT_NEAR(joints.samples[k][0], 0.001 * steps[k], 1e-12);
+    EXPECT_NEAR(joints.samples[k][1], 0.002 * steps[k], 1e-12);
+  }
+  EXPECT_EQ(poses.tools[0].counts[0].topic, "/tf");
+  EXPECT_EQ(poses.tools[0].counts[0].messages, 4u);
+  EXPECT_EQ(poses.tools[0].counts[0].rejected,
+            (std::map<std::string, std::size_t>{{rejectionText(Rejection::other_motion), 1}}));
 }
 
 TEST_F(BagJoints, anotherTypeIsRefused)
@@ -105,18 +152,19 @@ TEST_F(BagJoints, anotherTypeIsRefused)
 TEST_F(BagJoints, areReplayedToTheEndAndRecordedAgain)
 {
   const std::string scene = folder_.path() + "/scene.yaml";
-  std::ofstream(scene) << "tissues:\n"
-                          "  - name: block\n"
-                          "    mesh: {file: " SOURCE_DIR
-                          "/test/ros/block.msh, length_unit: m}\n"
-                          "    material: {young_modulus_pa: 5000, poisson_ratio: 0.4, "
-                          "density_kg_per_m3: 1000}\n"
-                          "tools:\n"
-                          "  - name: psm\n"
-                          "    shape: {urdf: {file: " SOURCE_DIR
-                          "/config/tools/grasper.urdf, links: [jaw_1, jaw_2], frame: shaft}}\n"
-                          "    initial_pose: {position_m: [0, 0, 1]}\n"
-                          "    jaw: {joints: [{joint: jaw_1_joint, share: 0.5}]}\n";
+  std::ofstream(scene)
+      << "tissues:\n"
+         "  - name: block\n"
+         "    mesh: {file: " SOURCE_DIR
+         "/test/ros/block.msh, length_unit: m}\n"
+         "    material: {young_modulus_pa: 5000, poisson_ratio: 0.4, "
+         "density_kg_per_m3: 1000}\n"
+         "tools:\n"
+         "  - name: psm\n"
+         "    shape: {urdf: {file: " SOURCE_DIR
+         "/config/tools/grasper.urdf, links: [shaft, jaw_1, jaw_2], frame: shaft}}\n"
+         "    initial_pose: {position_m: [0, 0, 1]}\n"
+         "    jaw: {joints: [{joint: jaw_1_joint, share: 0.5}]}\n";
   write("/psm/joint_states", 1.0, state(1.0, {"wrist"}, {0.1}));
   write("/psm/joint_states", 1.1, state(1.1, {"wrist"}, {0.2}));
   write("/psm/jaw/servo_jp", 1.0, state(1.0, {"jaw"}, {0.4}));

@@ -6,12 +6,12 @@
 #include <std_msgs/Header.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
 #include "soft_tissue_sim/base/error.h"
+#include "soft_tissue_sim/node/command_check.h"
 #include "soft_tissue_sim/node/scratch_folder.h"
 
 namespace soft_tissue_sim
@@ -89,15 +89,15 @@ TEST_F(BagPosesTest, samplesComeInTheOrderOfTheirStamps)
   EXPECT_EQ(poses.start, ros::Time(10.0));
   EXPECT_DOUBLE_EQ(poses.length_s, 2.0);
   ASSERT_EQ(poses.tools.size(), 1u);
-  EXPECT_EQ(poses.tools[0].times_s, (std::vector<double>{0.0, 1.0, 2.0}));
-  EXPECT_EQ(poses.tools[0].samples[1].translation().x(), 0.1);
+  EXPECT_EQ(poses.tools[0].poses.times_s, (std::vector<double>{0.0, 1.0, 2.0}));
+  EXPECT_EQ(poses.tools[0].poses.samples[1].translation().x(), 0.1);
 }
 
 TEST_F(BagPosesTest, recordingTimeStandsInForAZeroStamp)
 {
   write("/probe/servo_cp", 5.0, pose(0.0, 0.1));
   write("/probe/servo_cp", 6.5, pose(0.0, 0.2));
-  EXPECT_EQ(read().tools[0].times_s, (std::vector<double>{0.0, 1.5}));
+  EXPECT_EQ(read().tools[0].poses.times_s, (std::vector<double>{0.0, 1.5}));
 }
 
 TEST_F(BagPosesTest, commandsGoBeforeMeasurements)
@@ -105,64 +105,131 @@ TEST_F(BagPosesTest, commandsGoBeforeMeasurements)
   write("/a/probe/measured_cp", 1.0, pose(1.0, 0.5));
   write("/a/probe/servo_cp", 2.0, pose(2.0, 0.1));
   const BagPoses poses = read();
-  ASSERT_EQ(poses.tools[0].times_s.size(), 1u);
-  EXPECT_EQ(poses.tools[0].samples[0].translation().x(), 0.1);
+  ASSERT_EQ(poses.tools[0].poses.times_s.size(), 1u);
+  EXPECT_EQ(poses.tools[0].poses.samples[0].translation().x(), 0.1);
 }
 
 TEST_F(BagPosesTest, measurementsServeWhereThereAreNoCommands)
 {
   write("/a/probe/measured_cp", 1.0, pose(1.0, 0.5));
   write("/a/otherprobe/servo_cp", 1.0, pose(1.0, 0.7));
-  EXPECT_EQ(read().tools[0].samples[0].translation().x(), 0.5);
+  EXPECT_EQ(read().tools[0].poses.samples[0].translation().x(), 0.5);
 }
 
-TEST_F(BagPosesTest, posesTheNodeWouldRejectAreLeftOutAndReported)
+TEST_F(BagPosesTest, eachMessageIsUsedOrRejectedForAReason)
 {
   write("/probe/servo_cp", 1.0, pose(1.0, 0.1));
   write("/probe/servo_cp", 2.0, pose(2.0, std::numeric_limits<double>::quiet_NaN()));
   write("/probe/servo_cp", 3.0, pose(3.0, 11.0));
   write("/probe/servo_cp", 4.0, pose(4.0, 0.4, "nowhere"));
+  write("/probe/servo_cp", 5.0, pose(5.0, 0.5));
+  write("/probe/servo_cp", 5.1, pose(5.0, 0.6));
+  write("/probe/servo_cp", 5.2, pose(4.5, 0.7));
   const BagPoses poses = read();
-  EXPECT_EQ(poses.tools[0].times_s.size(), 1u);
-  ASSERT_EQ(poses.warnings.size(), 3u);
+  EXPECT_EQ(poses.tools[0].poses.times_s, (std::vector<double>{0.0, 3.5, 4.0}));
+  EXPECT_EQ(poses.tools[0].poses.samples[2].translation().x(), 0.6) << "the later of both";
+  ASSERT_EQ(poses.tools[0].counts.size(), 1u);
+  const StreamCounts& counts = poses.tools[0].counts[0];
+  EXPECT_EQ(counts.of, "pose");
+  EXPECT_EQ(counts.topic, "/probe/servo_cp");
+  EXPECT_EQ(counts.messages, 7u);
+  EXPECT_EQ(counts.used, 3u);
+  EXPECT_EQ(counts.out_of_order, 1u);
+  const std::map<std::string, std::size_t> reasons{{rejectionText(Rejection::not_finite), 1},
+                                                   {rejectionText(Rejection::too_far), 1},
+                                                   {rejectionText(Rejection::unknown_frame), 1},
+                                                   {"another one after it has the same stamp", 1}};
+  EXPECT_EQ(counts.rejected, reasons);
+  ASSERT_EQ(poses.warnings.size(), 4u);
   for (const std::string& warning : poses.warnings)
   {
-    EXPECT_TRUE(contains(warning, "/probe/servo_cp: 1 poses left out")) << warning;
+    EXPECT_TRUE(contains(warning, "/probe/servo_cp (pose): 1 of 7 left out")) << warning;
   }
+  EXPECT_TRUE(contains(poses.warnings[3], "nowhere")) << poses.warnings[3];
 }
+
+geometry_msgs::TransformStamped link(const std::string& parent, const std::string& child, double x,
+                                     double angle, double stamp)
+{
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = ros::Time(stamp);
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform.translation.x = x;
+  transform.transform.rotation.z = std::sin(0.5 * angle);
+  transform.transform.rotation.w = std::cos(0.5 * angle);
+  return transform;
+}
+
+tf2_msgs::TFMessage message(const std::vector<geometry_msgs::TransformStamped>& transforms)
+{
+  tf2_msgs::TFMessage message;
+  message.transforms = transforms;
+  return message;
+}
+
+constexpr double kQuarter = 0.5 * M_PI;
 
 TEST_F(BagPosesTest, framesAreResolvedThroughTfInTheBag)
 {
-  tf2_msgs::TFMessage transforms;
-  transforms.transforms.resize(1);
-  transforms.transforms[0].header.frame_id = "world";
-  transforms.transforms[0].child_frame_id = "base";
-  transforms.transforms[0].transform.translation.y = 0.25;
-  transforms.transforms[0].transform.rotation.w = 1.0;
-  write("/tf_static", 9.0, transforms);
+  write("/tf_static", 9.0, message({link("world", "base", 0.25, kQuarter, 0.0)}));
   write("/probe/servo_cp", 3.0, pose(3.0, 0.5, "base"));
-  EXPECT_TRUE(read().tools[0].samples[0].translation().isApprox(Vec3(0.5, 0.25, 0.0), 1e-15));
+  EXPECT_TRUE(read().tools[0].poses.samples[0].translation().isApprox(Vec3(0.25, 0.5, 0.0), 1e-15));
 }
 
-TEST_F(BagPosesTest, aFollowedFrameIsSampledFromTf)
+TEST_F(BagPosesTest, framesThatMoveAreWhereTfHasThemAtTheStamp)
 {
+  // world -(moves 1 m/s)-> cart -(fixed, a quarter turn)-> base -(turns 0.1 rad/s)-> arm
+  write("/tf_static", 1.0, message({link("cart", "base", 0.1, kQuarter, 0.0)}));
+  for (int i = 0; i <= 10; ++i)
+  {
+    const double time = 2.0 + 0.1 * i;
+    write("/tf", time, message({link("world", "cart", 0.1 * i, 0.0, time)}));
+    write("/tf", time + 0.05, message({link("base", "arm", 0.0, 0.01 * i, time)}));
+  }
+  write("/probe/servo_cp", 2.3, pose(2.3, 0.5, "arm"));
+  write("/probe/servo_cp", 2.5, pose(2.55, 0.5, "arm"));   // between two transforms
+  write("/probe/servo_cp", 3.1, pose(3.001, 0.5, "arm"));  // after the last
+  write("/probe/servo_cp", 1.9, pose(1.9, 0.5, "arm"));    // before the first
+  const BagPoses poses = read();
+  ASSERT_EQ(poses.tools[0].poses.samples.size(), 2u);
+  for (int i = 0; i < 2; ++i)
+  {
+    const double since = i == 0 ? 0.3 : 0.55, angle = kQuarter + 0.1 * since;
+    const Vec3 expected(since + 0.1 + 0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.0);
+    EXPECT_LT((poses.tools[0].poses.samples[i].translation() - expected).norm(), 1e-12) << i;
+  }
+  EXPECT_EQ(poses.tools[0].counts[0].rejected,
+            (std::map<std::string, std::size_t>{{rejectionText(Rejection::no_transform), 2}}));
+}
+
+TEST_F(BagPosesTest, aFollowedFrameIsSampledWhenSomethingMovesIt)
+{
+  write("/tf_static", 1.0, message({link("world", "base", 0.0, 0.0, 0.0)}));
   for (const double time : {1.0, 2.0})
   {
-    tf2_msgs::TFMessage transforms;
-    transforms.transforms.resize(1);
-    transforms.transforms[0].header.stamp = ros::Time(time);
-    transforms.transforms[0].header.frame_id = "world";
-    transforms.transforms[0].child_frame_id = "leader";
-    transforms.transforms[0].transform.translation.x = time;
-    transforms.transforms[0].transform.rotation.w = 1.0;
-    write("/tf", time, transforms);
+    write("/tf", time, message({link("base", "leader", time, 0.0, time)}));
+    write("/tf", time, message({link("world", "other", time, 0.0, time + 0.5)}));
   }
   ToolConfig tool = topicTool("probe");
   tool.pose_source.kind = PoseSourceConfig::Kind::tf;
   tool.pose_source.name = "leader";
   const BagPoses poses = read({tool});
-  EXPECT_EQ(poses.tools[0].times_s, (std::vector<double>{0.0, 1.0}));
-  EXPECT_EQ(poses.tools[0].samples[1].translation().x(), 2.0);
+  EXPECT_EQ(poses.tools[0].poses.times_s, (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(poses.tools[0].poses.samples[1].translation().x(), 2.0);
+  EXPECT_EQ(poses.tools[0].counts[0].messages, 2u) << "not those of others";
+}
+
+TEST_F(BagPosesTest, transformsThatTfCanNotTakeAreLeftOut)
+{
+  write("/tf_static", 1.0, message({link("world", "base", std::nan(""), 0.0, 0.0)}));
+  write("/tf", 1.0, message({link("world", "base", 0.0, 0.0, 4.2e9)}));
+  write("/probe/servo_cp", 3.0, pose(3.0, 0.5));
+  const BagPoses poses = read();
+  EXPECT_EQ(poses.tools[0].counts[0].used, 1u);
+  ASSERT_EQ(poses.warnings.size(), 2u);
+  EXPECT_EQ(poses.warnings[0], "tf: 1 transforms left out: its stamp is beyond the end of time");
+  EXPECT_EQ(poses.warnings[1], "tf: 1 transforms left out: not finite");
 }
 
 TEST_F(BagPosesTest, withoutPosesTheTopicsOfTheBagAreNamed)
@@ -196,47 +263,6 @@ TEST_F(BagPosesTest, aTruncatedBagIsRefused)
   bag_.close();
   std::filesystem::resize_file(path(), std::filesystem::file_size(path()) / 2);
   EXPECT_TRUE(contains(complaint(), "poses.bag"));
-}
-
-TEST(BagPoses, filesThatAreNoBagsAreRefused)
-{
-  const ScratchFolder folder;
-  EXPECT_THROW(readBagPoses(folder.path() + "/missing.bag", {topicTool("probe")}, "world"),
-               soft_tissue::Error);
-  const char* data = std::getenv("SOFT_TISSUE_DATA");
-  if (data == nullptr)
-  {
-    GTEST_SKIP() << "SOFT_TISSUE_DATA is not set";
-  }
-  for (const char* name : {"asci-file.txt", "empty-file.bag", "no-messages.bag", "example.bag",
-                           "example-unsorted-chunks.bag", "example-lz4.bag", "example-bz2.bag"})
-  {
-    const std::string path = std::string(data) + "/bags/" + name;
-    try
-    {
-      readBagPoses(path, {topicTool("probe")}, "world");
-      ADD_FAILURE() << path << " has no poses of a probe";
-    }
-    catch (const soft_tissue::Error& error)
-    {
-      EXPECT_TRUE(contains(error.what(), name)) << error.what();
-    }
-  }
-}
-
-TEST(BagPoses, aFrameOfARealRecordingIsFollowed)
-{
-  const char* data = std::getenv("SOFT_TISSUE_DATA");
-  if (data == nullptr)
-  {
-    GTEST_SKIP() << "SOFT_TISSUE_DATA is not set";
-  }
-  ToolConfig turtle = topicTool("probe");
-  turtle.pose_source.kind = PoseSourceConfig::Kind::tf;
-  turtle.pose_source.name = "turtle1";
-  const BagPoses poses = readBagPoses(std::string(data) + "/bags/example.bag", {turtle}, "world");
-  EXPECT_GT(poses.tools[0].times_s.size(), 100u);
-  EXPECT_TRUE(std::is_sorted(poses.tools[0].times_s.begin(), poses.tools[0].times_s.end()));
 }
 
 }  // namespace

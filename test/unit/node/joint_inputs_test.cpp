@@ -1,6 +1,7 @@
 #include "soft_tissue_sim/node/joint_inputs.h"
 
 #include <gtest/gtest.h>
+#include <tf2_ros/buffer.h>
 
 #include <cmath>
 #include <memory>

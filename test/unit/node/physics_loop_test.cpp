@@ -41,6 +41,17 @@ class Loop : public testing::Test
     EXPECT_TRUE(loop_->frames().acquire(late()));
   }
 
+  std::optional<PhysicsLoop::Stepped> step(std::uint32_t count)
+  {
+    return loop_->step(count, [this](std::uint32_t done) { seen_.push_back(done); });
+  }
+
+  std::optional<double> timeAfter(std::uint32_t count)
+  {
+    const std::optional<PhysicsLoop::Stepped> stepped = step(count);
+    return stepped ? std::make_optional(stepped->time_s) : std::nullopt;
+  }
+
   /** Starts under a clock that shows kStart, and waits until the loop follows it. */
   void startUnderClock()
   {
@@ -92,6 +103,7 @@ class Loop : public testing::Test
   }
 
   std::unique_ptr<PhysicsLoop> loop_;
+  std::vector<std::uint32_t> seen_;  ///< of step(), by the physics thread
   double now_ = 0.0;
   std::uint64_t before_ = 0;
 };
@@ -137,11 +149,11 @@ TEST_F(Loop, aClockThatJumpsIsFollowedFromThere)
 TEST_F(Loop, onlyAPausedLoopStepsOnDemand)
 {
   start(TimeSource::wall);
-  EXPECT_FALSE(loop_->step(1));
+  EXPECT_FALSE(step(1));
   EXPECT_TRUE(waitFor([this] { return steps() > 0; }));
   loop_->setPaused(true);
   const std::uint64_t before = steps();
-  const std::optional<double> time = loop_->step(7);
+  const std::optional<double> time = timeAfter(7);
   ASSERT_TRUE(time);
   EXPECT_NEAR(*time, static_cast<double>(before + 7) * kStep, 1e-9);
   EXPECT_EQ(steps(), before + 7);
@@ -158,29 +170,51 @@ TEST_F(Loop, obeysTheNewestCommandUntilAReset)
   {
     loop_->command(0, soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, z)), std::nullopt);
   }
-  ASSERT_TRUE(loop_->step(1));
+  ASSERT_TRUE(step(1));
   EXPECT_NEAR(newest().snapshot.tools[0].X_WT.translation().z(), 0.05, 1e-12);
   loop_->command(0, soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, 0.08)), std::nullopt);
   loop_->resetWorld();
   EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
   EXPECT_EQ(newest().resets, 1u);
-  const std::optional<double> time = loop_->step(1);
+  const std::optional<double> time = timeAfter(1);
   ASSERT_TRUE(time);
   EXPECT_NEAR(*time, 2 * kStep, 1e-12);
   EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
   EXPECT_NEAR(newest().stamp.toSec(), 2 * kStep, 1e-9);
 }
 
+TEST_F(Loop, endsStepsThatAreCalledOff)
+{
+  start(TimeSource::wall, true);
+  EXPECT_FALSE(loop_->cancelSteps()) << "there are none";
+  std::optional<PhysicsLoop::Stepped> stepped;
+  std::thread caller([&] { stepped = step(1000000000u); });
+  EXPECT_TRUE(waitFor([this] { return steps() > 1; }));
+  EXPECT_TRUE(loop_->cancelSteps());
+  caller.join();
+  ASSERT_TRUE(stepped);
+  EXPECT_EQ(stepped->steps, steps());
+  EXPECT_NEAR(stepped->time_s, static_cast<double>(steps()) * kStep, 1e-9);
+  ASSERT_EQ(seen_.size(), stepped->steps);
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+  {
+    EXPECT_EQ(seen_[i], i + 1);
+  }
+  EXPECT_FALSE(loop_->cancelSteps());
+  ASSERT_TRUE(step(2)) << "and no others";
+  EXPECT_EQ(steps(), stepped->steps + 2);
+}
+
 TEST_F(Loop, stopsInTheMiddleOfALongTask)
 {
   start(TimeSource::wall, true);
-  std::thread caller([this] { loop_->step(1000000000u); });
+  std::thread caller([this] { step(1000000000u); });
   EXPECT_TRUE(waitFor([this] { return steps() > 0; }));
   std::thread waiting([this] { loop_->resetWorld(); });
   loop_->stop();
   caller.join();
   waiting.join();
-  EXPECT_FALSE(loop_->step(1));
+  EXPECT_FALSE(step(1));
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ TEST(RunOptions, readsEveryOption)
   EXPECT_TRUE(options.quiet);
   EXPECT_EQ(options.compare, "f.csv");
   EXPECT_EQ(options.tare_s, 0.5);
+  EXPECT_TRUE(parseRunOptions({"a.yaml", "--bag-in", "i.bag", "--list-inputs"}).list_inputs);
   const std::vector<std::string> names = {"liver/young_modulus_pa", "liver/probe/friction"};
   EXPECT_EQ(
       parseRunOptions({"a.yaml", "--bag-in", "i.bag", "--identify", names[0] + "," + names[1]})
@@ -57,6 +58,7 @@ TEST(RunOptions, refusesWhatItCannotUnderstand)
       {"a.yaml", "--threads", "-1"},
       {"a.yaml", "--compare", "c.csv"},
       {"a.yaml", "--identify", "a/b"},
+      {"a.yaml", "--list-inputs"},
       {"a.yaml", "--bag-in", "i.bag", "--identify", "a/b", "--csv", "c.csv"}};
   for (const auto& arguments : wrong)
   {

@@ -46,6 +46,27 @@ TEST(TwistCommand, inTheWorldsAxesTheToolsDoNotCount)
   EXPECT_TRUE(moved(somewhere(), Twist(), 1.0).isApprox(somewhere(), 0.0));
 }
 
+TEST(TwistCommand, eachOfASeriesCountsUntilTheNextOrTheSilence)
+{
+  TwistSeries commands;
+  commands.times_s = {1.0, 1.25, 3.0};
+  for (const double v : {1.0, -2.0, 4.0})
+  {
+    commands.samples.push_back({Vec3(v, 0, 0), Vec3::Zero(), false});
+  }
+  const auto way = [&](double begin_s, double end_s) {
+    return movedAlong(Pose::Identity(), commands, begin_s, end_s, 0.5).translation().x();
+  };
+  EXPECT_EQ(way(0.0, 1.0), 0.0);
+  EXPECT_EQ(way(0.0, 1.25), 0.25);
+  EXPECT_EQ(way(1.125, 1.5), 0.125 - 0.5);
+  EXPECT_EQ(way(1.5, 1.75), -0.5);
+  EXPECT_EQ(way(1.75, 3.0), 0.0) << "silence";
+  EXPECT_EQ(way(2.0, 3.25), 1.0);
+  EXPECT_EQ(way(0.0, 10.0), 0.25 - 1.0 + 2.0);
+  EXPECT_EQ(way(5.0, 6.0), 0.0);
+}
+
 TEST(TwistCommand, countsUntilItIsSilentForTooLong)
 {
   TwistCommand command;
