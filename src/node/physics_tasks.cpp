@@ -7,9 +7,15 @@
 // What other threads ask of the loop: each is a task that its own thread takes between two steps.
 namespace soft_tissue_sim
 {
+namespace
+{
+const char* const kEnded = "the simulation has ended";
+}  // namespace
+
 void PhysicsLoop::setPaused(bool paused)
 {
   execute([this, paused] {
+    endAskedSteps();
     if (counters_.paused && !paused)
     {
       restartClocks();
@@ -18,21 +24,47 @@ void PhysicsLoop::setPaused(bool paused)
   });
 }
 
-std::optional<double> PhysicsLoop::step(std::uint32_t steps)
+double PhysicsLoop::step(std::uint32_t steps)
 {
-  std::optional<double> time;
-  execute([this, steps, &time] {
+  std::future<double> reached_s;
+  demand([&] {
     if (!counters_.paused)
     {
-      return;
+      throw soft_tissue::Error("the simulation is running: call pause_physics first");
     }
-    for (std::uint32_t i = 0; i < steps && !stopping_; ++i)
-    {
-      advance(true);
-    }
-    time = scene_.time();
+    reached_s = asked_steps_.emplace_back(AskedSteps{steps, 0, {}}).reached_s.get_future();
   });
-  return time;
+  try
+  {
+    return reached_s.get();
+  }
+  catch (const std::future_error&)
+  {
+    throw soft_tissue::Error(kEnded);
+  }
+}
+
+void PhysicsLoop::stepAsAsked()
+{
+  AskedSteps& asked = asked_steps_.front();
+  advance(true);
+  if (++asked.done == asked.steps)
+  {
+    asked.reached_s.set_value(scene_.time());
+    asked_steps_.pop_front();
+  }
+}
+
+/** Tells those who wait for steps that there will be no more. */
+void PhysicsLoop::endAskedSteps()
+{
+  for (AskedSteps& asked : asked_steps_)
+  {
+    asked.reached_s.set_exception(std::make_exception_ptr(soft_tissue::Error(
+        "ended by pause_physics or unpause_physics after " + std::to_string(asked.done) + " of " +
+        std::to_string(asked.steps) + " steps")));
+  }
+  asked_steps_.clear();
 }
 
 void PhysicsLoop::resetWorld()
@@ -103,7 +135,7 @@ void PhysicsLoop::demand(std::function<void()> task)
 {
   if (!execute(std::move(task)))
   {
-    throw soft_tissue::Error("the simulation has ended");
+    throw soft_tissue::Error(kEnded);
   }
 }
 

@@ -49,12 +49,18 @@ std::optional<double> given(double value)
 
 SimServices::SimServices(const ros::NodeHandle& node, const SceneInfo& info, bool owns_clock,
                          PhysicsLoop& loop)
-    : info_(info), loop_(loop), node_(node), spinner_(1, &queue_)
+    : info_(info),
+      loop_(loop),
+      step_node_(node),
+      step_spinner_(1, &step_queue_),
+      node_(node),
+      spinner_(1, &queue_)
 {
+  step_node_.setCallbackQueue(&step_queue_);
+  servers_.push_back(step_node_.advertiseService("step", &SimServices::step, this));
   node_.setCallbackQueue(&queue_);
   servers_.push_back(node_.advertiseService("pause_physics", &SimServices::pause, this));
   servers_.push_back(node_.advertiseService("unpause_physics", &SimServices::unpause, this));
-  servers_.push_back(node_.advertiseService("step", &SimServices::step, this));
   servers_.push_back(node_.advertiseService("reset_world", &SimServices::reset, this));
   if (owns_clock)
   {
@@ -65,6 +71,7 @@ SimServices::SimServices(const ros::NodeHandle& node, const SceneInfo& info, boo
   servers_.push_back(node_.advertiseService("load_state", &SimServices::load, this));
   servers_.push_back(node_.advertiseService("set_material", &SimServices::setMaterial, this));
   spinner_.start();
+  step_spinner_.start();
 }
 
 bool SimServices::pause(std_srvs::Empty::Request&, std_srvs::Empty::Response&)
@@ -86,10 +93,7 @@ bool SimServices::step(Step::Request& request, Step::Response& response)
     response.message = "steps = 0, must be at least 1";
     return true;
   }
-  const std::optional<double> time = loop_.step(request.steps);
-  response.success = time.has_value();
-  response.time = time.value_or(0.0);
-  response.message = time ? "" : "the simulation is running: call pause_physics first";
+  answer([&] { response.time = loop_.step(request.steps); }, response);
   return true;
 }
 

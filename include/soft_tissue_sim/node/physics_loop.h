@@ -95,9 +95,10 @@ class PhysicsLoop
                    const soft_tissue::Pose& X_WO);
 
   void setPaused(bool paused);
-  /** Steps a paused loop; waits for the last one. @return simulated time, empty if it is not paused
-   */
-  std::optional<double> step(std::uint32_t steps);
+  /** Steps a paused loop, and waits for the last one; setPaused() ends it earlier, other tasks are
+   * taken between two steps. @param steps  at least 1. @return simulated time, s
+   * @throws soft_tissue::Error if it is not paused, or ends earlier */
+  double step(std::uint32_t steps);
   /** Rest shape and initial tool poses; commands given before are forgotten; time goes on. */
   void resetWorld();
   /** The same, and time begins again at zero. */
@@ -133,6 +134,8 @@ class PhysicsLoop
   void forgetCommands();
   Moment now();
   bool stepIfDue();
+  void stepAsAsked();
+  void endAskedSteps();
   bool clockHasStarted();
   void aimTools(bool at_once);
   void aimTool(std::size_t tool, std::optional<double> time_s);
@@ -163,6 +166,14 @@ class PhysicsLoop
   std::vector<std::shared_ptr<Map>> maps_;  ///< per obstacle, null: none
   std::vector<soft_tissue::VoxelSet> spent_;
   soft_tissue::Snapshot asked_;  ///< of now()
+
+  /** Of a step(). */
+  struct AskedSteps
+  {
+    std::uint32_t steps, done;
+    std::promise<double> reached_s;
+  };
+  std::deque<AskedSteps> asked_steps_;  ///< one after the other
 
   LatestExchange<Frame> frames_;
   LoopCounters counters_;

@@ -15,9 +15,9 @@
 
 namespace soft_tissue_sim
 {
-/** Services that act on the physics as a whole, answered one after the other: `pause_physics`,
- * `unpause_physics`, `step`, `reset_world`, `reset_simulation`, `save_state`, `load_state` and
- * `set_material`. */
+/** Services that act on the physics as a whole: `pause_physics`, `unpause_physics`, `reset_world`,
+ * `reset_simulation`, `save_state`, `load_state` and `set_material`, answered one after the other,
+ * and `step`. */
 class SimServices
 {
  public:
@@ -38,7 +38,10 @@ class SimServices
 
   const SceneInfo& info_;
   PhysicsLoop& loop_;
-  ros::CallbackQueue queue_;  ///< its own: a long step holds no command up
+  ros::CallbackQueue step_queue_;  ///< its own: the others can end a long step
+  ros::NodeHandle step_node_;
+  ros::AsyncSpinner step_spinner_;
+  ros::CallbackQueue queue_;  ///< its own: they hold no command up
   ros::NodeHandle node_;
   std::vector<ros::ServiceServer> servers_;
   ros::AsyncSpinner spinner_;

@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
+#include <string>
 #include <thread>
 
+#include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/node/scene_loader.h"
 
 namespace soft_tissue_sim
@@ -86,6 +89,22 @@ class Loop : public testing::Test
     return loop_->frames().front();
   }
 
+  /** Asks for more steps than there is time for. @return why it ended */
+  std::future<std::string> stepForLong()
+  {
+    return std::async(std::launch::async, [this]() -> std::string {
+      try
+      {
+        loop_->step(4294967295u);
+      }
+      catch (const soft_tissue::Error& error)
+      {
+        return error.what();
+      }
+      return "nothing";
+    });
+  }
+
   static LatestExchange<Frame>::Deadline late()
   {
     return std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -137,15 +156,14 @@ TEST_F(Loop, aClockThatJumpsIsFollowedFromThere)
 TEST_F(Loop, onlyAPausedLoopStepsOnDemand)
 {
   start(TimeSource::wall);
-  EXPECT_FALSE(loop_->step(1));
+  EXPECT_THROW(loop_->step(1), soft_tissue::Error);
   EXPECT_TRUE(waitFor([this] { return steps() > 0; }));
   loop_->setPaused(true);
   const std::uint64_t before = steps();
-  const std::optional<double> time = loop_->step(7);
-  ASSERT_TRUE(time);
-  EXPECT_NEAR(*time, static_cast<double>(before + 7) * kStep, 1e-9);
+  const double time = loop_->step(7);
+  EXPECT_NEAR(time, static_cast<double>(before + 7) * kStep, 1e-9);
   EXPECT_EQ(steps(), before + 7);
-  EXPECT_NEAR(newest().snapshot.report.time_s, *time, 1e-9);
+  EXPECT_NEAR(newest().snapshot.report.time_s, time, 1e-9);
   loop_->setPaused(false);
   EXPECT_TRUE(waitFor([&] { return steps() > before + 7; }));
 }
@@ -158,15 +176,13 @@ TEST_F(Loop, obeysTheNewestCommandUntilAReset)
   {
     loop_->command(0, soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, z)), std::nullopt);
   }
-  ASSERT_TRUE(loop_->step(1));
+  loop_->step(1);
   EXPECT_NEAR(newest().snapshot.tools[0].X_WT.translation().z(), 0.05, 1e-12);
   loop_->command(0, soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, 0.08)), std::nullopt);
   loop_->resetWorld();
   EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
   EXPECT_EQ(newest().resets, 1u);
-  const std::optional<double> time = loop_->step(1);
-  ASSERT_TRUE(time);
-  EXPECT_NEAR(*time, 2 * kStep, 1e-12);
+  EXPECT_NEAR(loop_->step(1), 2 * kStep, 1e-12);
   EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
   EXPECT_NEAR(newest().stamp.toSec(), 2 * kStep, 1e-9);
 }
@@ -174,13 +190,41 @@ TEST_F(Loop, obeysTheNewestCommandUntilAReset)
 TEST_F(Loop, stopsInTheMiddleOfALongTask)
 {
   start(TimeSource::wall, true);
-  std::thread caller([this] { loop_->step(1000000000u); });
+  auto caller = stepForLong();
   EXPECT_TRUE(waitFor([this] { return steps() > 0; }));
   std::thread waiting([this] { loop_->resetWorld(); });
   loop_->stop();
-  caller.join();
   waiting.join();
-  EXPECT_FALSE(loop_->step(1));
+  EXPECT_EQ(caller.get(), "the simulation has ended");
+  EXPECT_THROW(loop_->step(1), soft_tissue::Error);
+}
+
+TEST_F(Loop, endsALongStepWhenItIsToldToPauseOrToRun)
+{
+  start(TimeSource::wall, true);
+  for (const bool paused : {true, false})
+  {
+    const std::uint64_t before = steps();
+    auto caller = stepForLong();
+    EXPECT_TRUE(waitFor([&] { return steps() > before; }));
+    loop_->resetWorld();  // other tasks don't wait for the last step, nor end it
+    const std::uint64_t between = steps();
+    EXPECT_TRUE(waitFor([&] { return steps() > between + 1; }));
+    loop_->setPaused(paused);
+    const std::string complaint = caller.get();
+    EXPECT_EQ(complaint.rfind("ended by pause_physics or unpause_physics after ", 0), 0u)
+        << complaint;
+    EXPECT_EQ(loop_->counters().paused, paused);
+  }
+}
+
+TEST_F(Loop, takesStepsOfSeveralOneAfterTheOther)
+{
+  start(TimeSource::wall, true);
+  auto first = std::async(std::launch::async, [this] { return loop_->step(20); });
+  auto second = std::async(std::launch::async, [this] { return loop_->step(20); });
+  EXPECT_NEAR(first.get() + second.get(), (20 + 40) * kStep, 1e-9);
+  EXPECT_EQ(steps(), 40u);
 }
 
 }  // namespace
