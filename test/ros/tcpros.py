@@ -60,12 +60,16 @@ class Publisher:
         self.master.registerPublisher(topic, type_name, self.uri)
 
     def accept(self):
-        """The next subscriber's connection, and what it asks for."""
+        """The next subscriber's connection, and what it asks for; those who change their minds don't count."""
         self.listener.settimeout(PATIENCE_S)
-        connection, _ = self.listener.accept()
-        connection.settimeout(PATIENCE_S)
-        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        return connection, read_framed(connection.makefile("rb"))
+        while True:
+            connection, _ = self.listener.accept()
+            connection.settimeout(PATIENCE_S)
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            try:
+                return connection, read_framed(connection.makefile("rb"))
+            except ConnectionError:
+                connection.close()
 
     def connect(self, topic, message_class):
         """@return a connection on which the topic's subscriber waits for framed messages"""
