@@ -19,10 +19,10 @@ int main(int argc, char** argv)
     const int processors = static_cast<int>(std::thread::hardware_concurrency());
     soft_tissue::setThreadCount(params.threads > 0 ? params.threads : processors);
     ProgressTopic progress(private_node);
-    progress.begin("load", 2);
-    progress.enter(0, "reading " + params.scene);
+    ProgressTopic::Task loading = progress.begin("load", 2);
+    loading.enter(0, "reading " + params.scene);
     const soft_tissue::SceneConfig config = loadConfig(params.scene);
-    progress.enter(1, "building tissues, tools and contacts");
+    loading.enter(1, "building tissues, tools and contacts");
     soft_tissue::Scene scene = buildScene(config);
     for (const soft_tissue::TissueInfo& tissue : scene.tissues())
     {
@@ -39,7 +39,7 @@ int main(int argc, char** argv)
       }
     }
     SimNode node(private_node, params, std::move(scene), progress);
-    progress.end(Progress::DONE);
+    loading.end(Progress::DONE);
     ROS_INFO_STREAM("simulating " << params.scene);
     ros::spin();
     return node.failed() ? 1 : 0;

@@ -1,6 +1,7 @@
 #include "soft_tissue_sim/base/state_archive.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -31,6 +32,17 @@ void append(const std::string& text, std::string& bytes)
 {
   append(static_cast<std::uint64_t>(text.size()), bytes);
   bytes += text;
+}
+
+/** @throws Error for what is there, but no file: pipes make wait, devices never end, and must not
+ * be replaced */
+void checkFile(const std::string& path)
+{
+  std::error_code none;
+  if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
+  {
+    throw Error(path + ": is no file");
+  }
 }
 
 /** What stands in bytes, piece after piece. */
@@ -193,6 +205,7 @@ void StateArchive::finish()
 
 std::string readBytes(const std::string& file)
 {
+  checkFile(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream.good())
   {
@@ -203,7 +216,9 @@ std::string readBytes(const std::string& file)
 
 void writeBytes(const std::string& file, const std::string& bytes)
 {
+  checkFile(file);
   const std::string beside = file + ".part";
+  std::remove(beside.c_str());  // it may be a pipe, which makes wait
   std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();

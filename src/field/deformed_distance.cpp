@@ -7,6 +7,12 @@
 
 namespace soft_tissue
 {
+namespace
+{
+/** From here squares of distances have no number any more, m; bodies are points by far. */
+constexpr double kFar = 1e100;
+}  // namespace
+
 class DeformedDistance::Impl
 {
  public:
@@ -31,6 +37,12 @@ class DeformedDistance::Impl
     Answer answer;
     if (!sign_)
     {
+      return answer;
+    }
+    if (p.allFinite() && p.lpNorm<Eigen::Infinity>() > kFar)
+    {
+      answer.depth = -p.stableNorm();
+      answer.gradient = -p.stableNormalized();
       return answer;
     }
     const TriangleTree::Nearest nearest = tree_.nearest(p, x_);

@@ -29,10 +29,7 @@ CsvRecorder::CsvRecorder(const std::string& path, const SceneInfo& info)
     }
   }
   stream_ << '\n';
-  if (!stream_)
-  {
-    throw soft_tissue::Error("csv " + path + ": can't be written");
-  }
+  check();
 }
 
 void CsvRecorder::write(const soft_tissue::Snapshot& snapshot)
@@ -52,6 +49,16 @@ void CsvRecorder::write(const soft_tissue::Snapshot& snapshot)
     writePair(pair);
   }
   stream_ << '\n';
+  check();
+}
+
+/** A full disk shows at once, not after a night. */
+void CsvRecorder::check() const
+{
+  if (!stream_)
+  {
+    throw soft_tissue::Error("csv " + path_ + ": can't be written");
+  }
 }
 
 void CsvRecorder::writeTool(const soft_tissue::ToolState& tool)

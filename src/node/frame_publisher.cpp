@@ -19,6 +19,14 @@ void FramePublisher::addStream(double max_rate_hz, Publish publish)
       {std::chrono::duration_cast<Clock::duration>(period), std::move(publish), {}, false});
 }
 
+void FramePublisher::addRelay(LatestExchange<Frame>& frames)
+{
+  addStream(0.0, [&frames](const Frame& frame) {
+    frames.back() = frame;
+    frames.publish();
+  });
+}
+
 void FramePublisher::start()
 {
   thread_ = std::thread([this] { run(); });

@@ -58,6 +58,7 @@ void PhysicsLoop::start()
     const std::lock_guard<std::mutex> lock(task_mutex_);
     accepting_ = false;
     tasks_.clear();  // breaks the promises of those who wait
+    asked_steps_.clear();
   });
 }
 
@@ -81,7 +82,11 @@ void PhysicsLoop::run()
   while (!stopping_)
   {
     runTasks();
-    if (counters_.paused)
+    if (!asked_steps_.empty())
+    {
+      stepAsAsked();
+    }
+    else if (counters_.paused)
     {
       waitForTask(kIdleWait);
     }

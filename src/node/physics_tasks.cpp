@@ -7,9 +7,15 @@
 // What other threads ask of the loop: each is a task that its own thread takes between two steps.
 namespace soft_tissue_sim
 {
+namespace
+{
+const char* const kEnded = "the simulation has ended";
+}  // namespace
+
 void PhysicsLoop::setPaused(bool paused)
 {
   execute([this, paused] {
+    endAskedSteps();
     if (counters_.paused && !paused)
     {
       restartClocks();
@@ -18,31 +24,58 @@ void PhysicsLoop::setPaused(bool paused)
   });
 }
 
-std::optional<PhysicsLoop::Stepped> PhysicsLoop::step(std::uint32_t steps, const StepSeen& seen)
+PhysicsLoop::Stepped PhysicsLoop::step(std::uint32_t steps, const StepSeen& seen)
 {
-  std::optional<Stepped> stepped;
-  execute([&] {
+  std::future<Stepped> reached;
+  demand([&] {
     if (!counters_.paused)
     {
-      return;
+      throw soft_tissue::Error("the simulation is running: call pause_physics first");
     }
-    stepped.emplace();
-    asked_for_ = Asked::steps;
-    while (stepped->steps < steps && !stopping_ && asked_for_ == Asked::steps)
-    {
-      advance(true);
-      seen(++stepped->steps);
-    }
-    asked_for_ = Asked::nothing;
-    stepped->time_s = scene_.time();
+    reached = asked_steps_.emplace_back(AskedSteps{steps, seen, {}, {}}).reached.get_future();
   });
-  return stepped;
+  try
+  {
+    return reached.get();
+  }
+  catch (const std::future_error&)
+  {
+    throw soft_tissue::Error(kEnded);
+  }
+}
+
+void PhysicsLoop::stepAsAsked()
+{
+  AskedSteps& asked = asked_steps_.front();
+  advance(true);
+  asked.stepped = {asked.stepped.steps + 1, scene_.time()};
+  asked.seen(asked.stepped.steps);
+  if (asked.stepped.steps == asked.steps)
+  {
+    asked.reached.set_value(asked.stepped);
+    asked_steps_.pop_front();
+  }
 }
 
 bool PhysicsLoop::cancelSteps()
 {
-  Asked asked = Asked::steps;
-  return asked_for_.compare_exchange_strong(asked, Asked::an_end) || asked == Asked::an_end;
+  bool any = false;
+  execute([&] {
+    any = !asked_steps_.empty();
+    endAskedSteps();
+  });
+  return any;
+}
+
+/** Tells those who wait for steps that there will be no more. */
+void PhysicsLoop::endAskedSteps()
+{
+  for (AskedSteps& asked : asked_steps_)
+  {
+    asked.stepped.time_s = scene_.time();
+    asked.reached.set_value(asked.stepped);
+  }
+  asked_steps_.clear();
 }
 
 void PhysicsLoop::resetWorld()
@@ -113,7 +146,7 @@ void PhysicsLoop::demand(std::function<void()> task)
 {
   if (!execute(std::move(task)))
   {
-    throw soft_tissue::Error("the simulation has ended");
+    throw soft_tissue::Error(kEnded);
   }
 }
 

@@ -11,19 +11,23 @@ ProgressTopic::ProgressTopic(ros::NodeHandle node)
     : publisher_(node.advertise<Progress>("progress", 10, true))
 {}
 
-void ProgressTopic::begin(const std::string& task, std::uint64_t total)
+ProgressTopic::Task ProgressTopic::begin(const std::string& name, std::uint64_t total) const
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  progress_ = Progress();
-  progress_.task = task;
-  progress_.total = total;
-  since_begin_.restart();
-  publish();
+  Task task(publisher_, name, total);
+  task.publish();
+  return task;
 }
 
-void ProgressTopic::advance(std::uint64_t done)
+ProgressTopic::Task::Task(const ros::Publisher& publisher, const std::string& name,
+                          std::uint64_t total)
+    : publisher_(publisher)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  progress_.task = name;
+  progress_.total = total;
+}
+
+void ProgressTopic::Task::advance(std::uint64_t done)
+{
   progress_.done = done;
   if (since_sent_.seconds() >= kPeriod)
   {
@@ -31,24 +35,22 @@ void ProgressTopic::advance(std::uint64_t done)
   }
 }
 
-void ProgressTopic::enter(std::uint64_t done, const std::string& message)
+void ProgressTopic::Task::enter(std::uint64_t done, const std::string& message)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
   progress_.done = done;
   progress_.message = message;
   publish();
 }
 
-void ProgressTopic::end(std::uint8_t state, const std::string& message)
+void ProgressTopic::Task::end(std::uint8_t state, const std::string& message)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
   progress_.state = state;
   progress_.message = message;
   progress_.done = state == Progress::DONE ? progress_.total : progress_.done;
   publish();
 }
 
-void ProgressTopic::publish()
+void ProgressTopic::Task::publish()
 {
   progress_.header.stamp = ros::Time::now();
   progress_.elapsed = since_begin_.seconds();

@@ -37,16 +37,17 @@ SimServices::SimServices(const ros::NodeHandle& node, const SceneInfo& info, boo
     : info_(info),
       loop_(loop),
       progress_(progress),
+      step_node_(node),
+      step_spinner_(1, &step_queue_),
       node_(node),
-      spinner_(1, &queue_),
-      cancel_spinner_(1, &cancel_queue_)
+      spinner_(1, &queue_)
 {
-  node_.setCallbackQueue(&cancel_queue_);
-  servers_.push_back(node_.advertiseService("cancel", &SimServices::cancel, this));
+  step_node_.setCallbackQueue(&step_queue_);
+  servers_.push_back(step_node_.advertiseService("step", &SimServices::step, this));
   node_.setCallbackQueue(&queue_);
   servers_.push_back(node_.advertiseService("pause_physics", &SimServices::pause, this));
   servers_.push_back(node_.advertiseService("unpause_physics", &SimServices::unpause, this));
-  servers_.push_back(node_.advertiseService("step", &SimServices::step, this));
+  servers_.push_back(node_.advertiseService("cancel", &SimServices::cancel, this));
   servers_.push_back(node_.advertiseService("reset_world", &SimServices::reset, this));
   if (owns_clock)
   {
@@ -57,24 +58,24 @@ SimServices::SimServices(const ros::NodeHandle& node, const SceneInfo& info, boo
   servers_.push_back(node_.advertiseService("load_state", &SimServices::load, this));
   servers_.push_back(node_.advertiseService("set_material", &SimServices::setMaterial, this));
   spinner_.start();
-  cancel_spinner_.start();
+  step_spinner_.start();
 }
 
 /** Does what may be refused, and tells of it as of a task. */
 template <typename Act, typename Response>
-void SimServices::answer(const char* task, const Act& act, Response& response)
+void SimServices::answer(const char* name, const Act& act, Response& response)
 {
-  progress_.begin(task, 0);
+  ProgressTopic::Task task = progress_.begin(name, 0);
   try
   {
     act();
     response.success = true;
-    progress_.end(Progress::DONE);
+    task.end(Progress::DONE);
   }
   catch (const soft_tissue::Error& error)
   {
     response.message = error.what();
-    progress_.end(Progress::FAILED, error.what());
+    task.end(Progress::FAILED, error.what());
   }
 }
 
@@ -97,23 +98,25 @@ bool SimServices::step(Step::Request& request, Step::Response& response)
     response.message = "steps = 0, must be at least 1";
     return true;
   }
-  progress_.begin("step", request.steps);
-  const std::optional<PhysicsLoop::Stepped> stepped =
-      loop_.step(request.steps, [this](std::uint32_t done) { progress_.advance(done); });
-  if (!stepped)
+  ProgressTopic::Task task = progress_.begin("step", request.steps);
+  try
   {
-    response.message = "the simulation is running: call pause_physics first";
-    progress_.end(Progress::FAILED, response.message);
-    return true;
+    const PhysicsLoop::Stepped stepped =
+        loop_.step(request.steps, [&task](std::uint32_t done) { task.advance(done); });
+    response.success = stepped.steps == request.steps;
+    response.time = stepped.time_s;
+    if (!response.success)
+    {
+      response.message = "cancelled after " + std::to_string(stepped.steps) + " of " +
+                         std::to_string(request.steps) + " steps";
+    }
+    task.end(response.success ? Progress::DONE : Progress::CANCELLED, response.message);
   }
-  response.success = stepped->steps == request.steps;
-  response.time = stepped->time_s;
-  if (!response.success)
+  catch (const soft_tissue::Error& error)
   {
-    response.message = "cancelled after " + std::to_string(stepped->steps) + " of " +
-                       std::to_string(request.steps) + " steps";
+    response.message = error.what();
+    task.end(Progress::FAILED, error.what());
   }
-  progress_.end(response.success ? Progress::DONE : Progress::CANCELLED, response.message);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "scene_impl.h"
+#include "schema_sections.h"
 #include "soft_tissue_sim/base/error.h"
 
 namespace soft_tissue
@@ -28,12 +29,13 @@ void check(const AttachRequest& request)
 {
   if (!(request.reach_m >= 0.0) || !std::isfinite(request.reach_m))
   {
-    throw Error("reach = " + std::to_string(request.reach_m) + " m, must be >= 0");
+    throw Error("reach = " + shortest(request.reach_m) + " m, must be finite and >= 0");
   }
-  const double stiffness = request.stiffness_pa_per_m.value_or(1.0);
-  if (!(stiffness > 0.0) || !std::isfinite(stiffness))
+  const std::optional<double>& stiffness = request.stiffness_pa_per_m;
+  if (stiffness && !kContactStiffness.holds(*stiffness))
   {
-    throw Error("stiffness = " + std::to_string(stiffness) + " Pa/m, must be > 0");
+    throw Error("stiffness = " + shortest(*stiffness) + " Pa/m, must be " +
+                kContactStiffness.text());
   }
 }
 

@@ -149,7 +149,7 @@ const Section<ContactConfig>& contactSection()
                     "The k of law fisher2001 or marchal2004, which need it: N/m, along edges "
                     "N/m^2.")
           .optional("stiffness_pa_per_m", &ContactConfig::stiffness_pa_per_m,
-                    maybe(number(1.0, 1e15, Ends::closed), "auto", true),
+                    maybe(number(kContactStiffness), "auto", true),
                     "Contact pressure per depth; auto: " + shortest(kAutoStiffness) +
                         " E / R, E being the tissue's Young's modulus and R the radius of the "
                         "largest ball inside the tool, half a cell of an obstacle; of two tissues, "

@@ -72,6 +72,8 @@ constexpr Range kYoungModulus = {0.0, 1e12, Ends::open_below};
 constexpr Range kPoissonRatio = {-1.0, 0.5, Ends::open};
 constexpr Range kDensity = {0.0, 1e5, Ends::open_below};
 constexpr Range kStiffening = {1e-3, 100.0, Ends::closed};
+/** Of contacts and of what ties tissue to tools, Pa/m. */
+constexpr Range kContactStiffness = {1.0, 1e15, Ends::closed};
 Kind<MaterialModel> materialModel();
 Kind<double> youngModulus();
 Kind<double> poissonRatio();

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What goes wrong around the node: its master, its publishers, its tf; and how it ends itself."""
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -13,10 +14,16 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
+from soft_tissue_sim.msg import TissueState
+from soft_tissue_sim.srv import SaveState, SetMaterial
+from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from sim_client import PATIENCE_S, SimClient, wait_until
+import tcpros
+from node_process import memory_of, node_process
+from sim_client import NODE, PATIENCE_S, SimClient, wait_until
 
+NODE_PROGRAM = ("rosrun", "soft_tissue_sim", "sim_node")
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "block.yaml")
 # Publishes as fast as it can: poses whose frame has a name of a megabyte, so that it dies within one.
 HUGE_PUBLISHER = """
@@ -61,8 +68,8 @@ class Processes:
         self.all.append(process)
         return process
 
-    def start_node(self, *parameters):
-        return self.start("sim_node", "rosrun", "soft_tissue_sim", "sim_node", "_scene:=" + SCENE, *parameters)
+    def start_node(self, *parameters, scene=SCENE, name="sim_node"):
+        return self.start(name, *NODE_PROGRAM, "_scene:=" + scene, *parameters)
 
     def log_path(self, name):
         return os.path.join(self.folder, name + ".log")
@@ -79,9 +86,9 @@ class Processes:
 
 
 class FaultsTest(unittest.TestCase):
-    def start_node(self, *parameters):
+    def start_node(self, *parameters, scene=SCENE):
         self.processes = Processes(self)
-        self.node = self.processes.start_node(*parameters)
+        self.node = self.processes.start_node(*parameters, scene=scene)
         self.client = SimClient()
         wait_until(lambda: "physics" in self.client.diagnostics, "diagnostics")
 
@@ -147,6 +154,72 @@ class FaultsTest(unittest.TestCase):
         assert_messages_come("with a new master")
         self.assertIsNone(node.poll())
         self.assertIsNone(listener.poll())
+
+    def test_a_second_node_of_the_same_name_takes_its_place(self):
+        self.start_node()
+        first = self.node
+        before = self.client.newest["stats"].step
+        wait_until(lambda: self.client.newest["stats"].step > before + 200, "the first one steps")
+        self.processes.start_node(name="second")
+        self.assertEqual(first.wait(timeout=PATIENCE_S), 0)
+        wait_until(lambda: self.client.newest["stats"].step < before + 200, "messages are those of the second")
+        self.assert_time_goes_on()
+        self.client.move_to((0.0, 0.0, 0.05))
+
+    def test_files_that_change_while_it_runs_change_nothing(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        scene, mesh = (shutil.copy(os.path.join(os.path.dirname(SCENE), name), folder.name)
+                       for name in ("block.yaml", "block.msh"))
+        self.start_node(scene=scene)
+        for path in (scene, mesh):
+            with open(path, "w") as stream:
+                stream.write("nothing of use")
+        self.client.reset()
+        self.assert_time_goes_on()
+
+        def set_material():
+            return rospy.ServiceProxy(NODE + "/set_material", SetMaterial)(
+                tissue="block", young_modulus=3e4, poisson_ratio=0.4, density=1e3, stiffening=float("nan"))
+
+        answer = set_material()
+        self.assertFalse(answer.success)
+        self.assertIn(mesh, answer.message)
+        self.assert_time_goes_on()
+        shutil.copy(os.path.join(os.path.dirname(SCENE), "block.msh"), mesh)
+        self.assertTrue(set_material().success)
+        self.assert_time_goes_on()
+
+    def test_subscribers_that_never_read_take_no_memory(self):
+        self.start_node("_real_time_factor:=0", "_state_rate_hz:=0", "_stats_rate_hz:=0")
+        pid = node_process()
+        silent = [tcpros.Subscriber(tcpros.topic_address(NODE, topic), topic, message_class)
+                  for topic, message_class in ((NODE + "/block/state", TissueState), (NODE + "/markers", MarkerArray))]
+
+        def pass_time(seconds):
+            before = self.client.sim_time()
+            wait_until(lambda: self.client.sim_time() > before + seconds, "simulated time goes on")
+
+        pass_time(2.0)
+        warm = memory_of(pid)
+        pass_time(4.0)
+        self.assertLess(memory_of(pid) - warm, 1 << 20)  # states alone are 800 times 5 KB
+        for subscriber in silent:
+            subscriber.close()
+
+    def test_a_full_disk_is_told_to_who_saves_a_state(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.processes = Processes(self)
+        limited = "trap '' XFSZ; ulimit -f 16; exec \"$@\" _scene:=" + SCENE
+        self.processes.start("sim_node", "bash", "-c", limited, "bash", *NODE_PROGRAM)
+        self.client = SimClient()
+        path = os.path.join(folder.name, "state")
+        answer = rospy.ServiceProxy(NODE + "/save_state", SaveState)(path)
+        self.assertFalse(answer.success)
+        self.assertEqual(answer.message, path + ": can't be written")
+        self.assertEqual(os.listdir(folder.name), [])
+        self.assert_time_goes_on()
 
 
 if __name__ == "__main__":

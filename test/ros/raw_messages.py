@@ -11,8 +11,13 @@ NUMBERS = {"int8": "b", "uint8": "B", "byte": "b", "char": "B", "int16": "h", "u
 ODD_FLOATS = (0.0, -0.0, 1.0, 0.03, 0.7071067811865476, 1e-310, 1e308, -1e308, float("nan"), float("inf"),
               float("-inf"))
 ODD_STRINGS = ("", "world", "probe", "/world", "no such frame", "\u00e9\u00e8", "a" * 3000, "../../x", "%s%n", "\0")
+ODD_BYTES = [struct.pack("<d", number) for number in ODD_FLOATS] + [
+    struct.pack("<I", number) for number in (0, 1, 2**32 - 1, 2**31, 10**6, 10**9, 2**28 + 1)]
 LONGEST_ARRAY = 4
 MOST_FLIPS = 8
+MOST_NOISE = 400
+POOL = 200
+HONEST_SHARE = 4  # of those that are not
 
 
 def random_number(kind, source):
@@ -56,37 +61,47 @@ def serialized(message):
     return stream.getvalue()
 
 
-def spoilt(data, source):
-    """One of: as it is, bits flipped, cut, padded, all at random."""
-    way = source.randrange(5)
+def flipped(data, source):
     data = bytearray(data)
-    if way == 1 and data:
-        for _ in range(source.randint(1, MOST_FLIPS)):
-            data[source.randrange(len(data))] ^= 1 << source.randrange(8)
-    elif way == 2:
-        del data[source.randint(0, len(data)):]
-    elif way == 3:
-        data += bytes(source.getrandbits(8) for _ in range(source.randint(1, 64)))
-    elif way == 4:
-        data = bytearray(source.getrandbits(8) for _ in range(len(data)))
+    for _ in range(source.randint(1, MOST_FLIPS) if data else 0):
+        data[source.randrange(len(data))] ^= 1 << source.randrange(8)
     return bytes(data)
 
 
-def raw_class(message_class):
-    """A message class of the same type and sum whose content is bytes, whatever they are."""
-    class Raw(genpy.Message):
-        __slots__ = ["data"]
-        _slot_types = ["uint8[]"]
-        _type = message_class._type
-        _md5sum = message_class._md5sum
-        _full_text = message_class._full_text if hasattr(message_class, "_full_text") else ""
-        _has_header = False
-
-        def serialize(self, stream):
-            stream.write(self.data)
-
-    return Raw
+def overwritten(data, source):
+    """A number that is odd, or a length that can't be, wherever it lands."""
+    odd = source.choice(ODD_BYTES)
+    at = source.randrange(len(data) + 1)
+    return (data[:at] + odd + data[at + len(odd):])[:max(len(data), at)]
 
 
-def random_source(seed):
-    return random.Random(seed)
+class Spoiler:
+    """Spoilt messages of a class, one after the other, the same ones for the same seed.
+
+    They come from a pool: making each of its own takes a thousand times as long as spoiling one. `honest` ones are
+    those that a node takes; a message with one bit off gets further than noise.
+    """
+
+    def __init__(self, message_class, seed, honest=()):
+        self.source = random.Random(seed)
+        pool = [serialized(random_message(message_class, self.source)) for _ in range(POOL)]
+        self.pool = pool + [serialized(message) for message in honest] * (POOL // HONEST_SHARE)
+
+    def next(self):
+        """One of: as it is, bits flipped, odd numbers in it, cut, padded, mixed with another, noise."""
+        source = self.source
+        data = source.choice(self.pool)
+        way = source.randrange(7)
+        if way == 1:
+            return flipped(data, source)
+        if way == 2:
+            return overwritten(data, source)
+        if way == 3:
+            return data[:source.randrange(len(data) + 1)]
+        if way == 4:
+            return data + source.randbytes(source.randint(1, 64))
+        if way == 5:
+            return data[:source.randrange(len(data) + 1)] + source.choice(self.pool)[source.randrange(len(data) + 1):]
+        if way == 6:
+            return source.randbytes(min(len(data), MOST_NOISE))
+        return data

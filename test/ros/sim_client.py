@@ -4,6 +4,7 @@ Nothing here takes a machine to be fast: what must happen is waited for with muc
 not happen is looked at for a while, and that can't fail for want of time.
 """
 import math
+import os
 import threading
 import time
 
@@ -15,7 +16,7 @@ from soft_tissue_sim.srv import Step
 from std_srvs.srv import Empty
 
 NODE = "/sim_node"
-PATIENCE_S = 60.0
+PATIENCE_S = float(os.environ.get("SIM_PATIENCE_S", 60.0))  # programs that look at their memory are slow
 POLL_S = 0.01
 
 

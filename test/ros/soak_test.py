@@ -1,68 +1,101 @@
 #!/usr/bin/env python3
 """The node at full rate for long: its memory stays flat and it opens nothing that it doesn't close.
 
-SOAK_S tells for how many simulated seconds; an hour is 3600.
+SOAK_S tells for how many simulated seconds; an hour is 3600. SOAK_GUESTS tells how many subscribers come and go.
 """
 import math
 import os
 import sys
 import time
 import unittest
-import xmlrpc.client
 
-import rosgraph
 import rospy
 import rostest
 from geometry_msgs.msg import Point
-from soft_tissue_sim.msg import TissueField, TissueState
-from soft_tissue_sim.srv import QueryDistance
+from soft_tissue_sim.msg import SimStats, TissueField, TissueState
+from soft_tissue_sim.srv import QueryDistance, QueryDistanceRequest
 from visualization_msgs.msg import MarkerArray
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import tcpros
+from node_process import files_of, memory_of, node_process
+from raw_messages import serialized
 from sim_client import NODE, SimClient, wait_until
 
 SOAK_S = float(os.environ.get("SOAK_S", 30))
-WARM_UP = 0.25  # of it
-MOST_GROWTH = 4 << 20  # bytes: what allocators keep of short-lived subscribers and messages
-
-
-def node_process():
-    node = xmlrpc.client.ServerProxy(rosgraph.Master(rospy.get_name()).lookupNode(NODE))
-    code, message, pid = node.getPid(rospy.get_name())
-    assert code == 1, message
-    return pid
-
-
-def memory_of(pid):
-    with open("/proc/%d/statm" % pid) as stream:
-        return int(stream.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-
-def files_of(pid):
-    return len(os.listdir("/proc/%d/fd" % pid))
+GUESTS = int(os.environ.get("SOAK_GUESTS", 6000))
+WARM_UP = 0.25  # of either
+MOST_GROWTH = 4 << 20  # bytes: what allocators keep of messages, however long it takes
+MOST_A_GUEST = 512     # bytes, on the mean
 
 
 class SoakTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.client = SimClient()
+        cls.client.wait_for_commands_to_arrive()
+        cls.pid = node_process()
+
+    def move(self):
+        t = self.client.sim_time()
+        self.client.command((0.01 * math.cos(t), 0.01 * math.sin(t), 0.037 + 0.003 * math.cos(3.0 * t)))
+        self.client.forget_messages()
+
+    def check_guests(self, what, visit):
+        """Those who come and go leave less behind than the least that could be forgotten of each."""
+        for number in range(GUESTS):
+            visit()
+            if number == int(WARM_UP * GUESTS):
+                warm = (memory_of(self.pid), files_of(self.pid))
+            if number % 100 == 0:
+                self.move()
+        wait_until(lambda: files_of(self.pid) <= warm[1], "files are closed again")
+        each = (memory_of(self.pid) - warm[0]) / (1.0 - WARM_UP) / GUESTS
+        print("  %d %s came and went: %.1f MB, %+.0f bytes for each" % (GUESTS, what, memory_of(self.pid) / 1e6, each))
+        self.assertLess(each, MOST_A_GUEST)
+
+    def test_subscribers_leave_nothing(self):
+        def visit():
+            address = tcpros.topic_address(NODE, NODE + "/stats")
+            subscriber = tcpros.Subscriber(address, NODE + "/stats", SimStats)
+            subscriber.read()  # the header
+            subscriber.read()  # the newest step
+            subscriber.close()
+
+        self.check_guests("subscribers", visit)
+
+    def test_callers_leave_nothing(self):
+        request = serialized(QueryDistanceRequest(max_distance=0.1))
+
+        def visit():
+            service = tcpros.Service(NODE + "/query_distance", QueryDistance)
+            service.send([request])
+            (understood, _), = service.receive()
+            self.assertTrue(understood)
+            service.close()
+
+        self.check_guests("callers of a service", visit)
+
     def test_memory_and_files_stay_flat(self):
-        client = SimClient()
-        client.wait_for_commands_to_arrive()
-        pid = node_process()
+        client, pid = self.client, self.pid
         query = rospy.ServiceProxy(NODE + "/query_distance", QueryDistance)
         listeners = {"markers": MarkerArray, "block/state": TissueState, "block/field": TissueField}
         for topic, message_type in listeners.items():
             rospy.Subscriber(NODE + "/" + topic, message_type, lambda message: None, queue_size=1)
         start = client.sim_time()
-        warm = None
+        warm, told = None, 0
         while client.sim_time() < start + SOAK_S:
-            t = client.sim_time()
-            client.command((0.01 * math.cos(t), 0.01 * math.sin(t), 0.037 + 0.003 * math.cos(3.0 * t)))
+            self.move()
             comes_and_goes = rospy.Subscriber(NODE + "/markers", MarkerArray, lambda message: None)
             query(points=[Point(0.0, 0.0, 0.01)], max_distance=0.1)
             time.sleep(0.02)
             comes_and_goes.unregister()
-            client.forget_messages()
-            if warm is None and t > start + WARM_UP * SOAK_S:
+            done = (client.sim_time() - start) / SOAK_S
+            if warm is None and done > WARM_UP:
                 warm = (memory_of(pid), files_of(pid))
+            if done > told:
+                told += 0.05
+                print("  %.0f s: %.2f MB, %d files" % (done * SOAK_S, memory_of(pid) / 1e6, files_of(pid)), flush=True)
         wait_until(lambda: files_of(pid) <= warm[1] + 1, "files are closed again")
         growth = memory_of(pid) - warm[0]
         print("  %.0f s simulated: %.1f MB, grown by %.2f MB since %.0f s; %d files, were %d" % (

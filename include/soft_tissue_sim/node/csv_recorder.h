@@ -15,11 +15,13 @@ class CsvRecorder
   /** @throws soft_tissue::Error if the file can't be written */
   CsvRecorder(const std::string& path, const SceneInfo& info);
 
+  /** @throws soft_tissue::Error if the disk is full */
   void write(const soft_tissue::Snapshot& snapshot);
   /** @throws soft_tissue::Error if not all could be written */
   void close();
 
  private:
+  void check() const;
   void writeTool(const soft_tissue::ToolState& tool);
   void writePair(const soft_tissue::TissuePairState& pair);
 

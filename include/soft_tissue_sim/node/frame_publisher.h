@@ -10,7 +10,7 @@
 
 namespace soft_tissue_sim
 {
-/** Runs every stream of messages on one thread of its own, from finished frames only. */
+/** Runs its streams of messages on one thread of its own, from finished frames only. */
 class FramePublisher
 {
  public:
@@ -25,6 +25,8 @@ class FramePublisher
    * @param max_rate_hz  most calls a second; 0: every frame this thread sees
    */
   void addStream(double max_rate_hz, Publish publish);
+  /** Adds a stream that hands every frame on, to a publisher of what takes longer to make. */
+  void addRelay(LatestExchange<Frame>& frames);
   void start();
   void stop();
 

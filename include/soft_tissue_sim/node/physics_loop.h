@@ -103,9 +103,11 @@ class PhysicsLoop
   };
   /** Called after each step with how many are done, in the physics thread. */
   using StepSeen = std::function<void(std::uint32_t done)>;
-  /** Steps a paused loop; waits for the last one. @return nothing if it is not paused */
-  std::optional<Stepped> step(std::uint32_t steps, const StepSeen& seen);
-  /** Ends a step() after the step it is in. From any thread. @return whether there is one */
+  /** Steps a paused loop, and waits for the last one; cancelSteps() and setPaused() end it earlier,
+   * other tasks are taken between two steps. @param steps  at least 1
+   * @throws soft_tissue::Error if it is not paused, or the loop ends */
+  Stepped step(std::uint32_t steps, const StepSeen& seen);
+  /** Ends each step() after the step it is in. From any thread. @return whether there is one */
   bool cancelSteps();
   /** Rest shape and initial tool poses; commands given before are forgotten; time goes on. */
   void resetWorld();
@@ -142,6 +144,8 @@ class PhysicsLoop
   void forgetCommands();
   Moment now();
   bool stepIfDue();
+  void stepAsAsked();
+  void endAskedSteps();
   bool clockHasStarted();
   void aimTools(bool at_once);
   void aimTool(std::size_t tool, std::optional<double> time_s);
@@ -159,13 +163,6 @@ class PhysicsLoop
   StepSchedule schedule_;
   bool clock_started_ = false;
   RealTimeMeter meter_;
-  enum class Asked
-  {
-    nothing,
-    steps,
-    an_end
-  };
-  std::atomic<Asked> asked_for_{Asked::nothing};  ///< of step() under way
   std::uint64_t resets_ = 0;
   ros::Time stamp_;
 
@@ -179,6 +176,16 @@ class PhysicsLoop
   std::vector<std::shared_ptr<Map>> maps_;  ///< per obstacle, null: none
   std::vector<soft_tissue::VoxelSet> spent_;
   soft_tissue::Snapshot asked_;  ///< of now()
+
+  /** Of a step(). */
+  struct AskedSteps
+  {
+    std::uint32_t steps;
+    StepSeen seen;
+    Stepped stepped;
+    std::promise<Stepped> reached;
+  };
+  std::deque<AskedSteps> asked_steps_;  ///< one after the other
 
   LatestExchange<Frame> frames_;
   LoopCounters counters_;

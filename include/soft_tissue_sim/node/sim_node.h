@@ -38,6 +38,7 @@ class SimNode
 
  private:
   void addOutputs();
+  void addSlowOutputs();
   void onFailure(const std::string& what);
 
   ros::NodeHandle node_;
@@ -49,8 +50,10 @@ class SimNode
 
   std::unique_ptr<Inputs> inputs_;
 
-  TissueDepths depths_;  ///< used by the publishing thread only, once it runs
-  FramePublisher publisher_;
+  FramePublisher publisher_;  ///< of what is small and waited for
+  LatestExchange<Frame> slow_frames_;
+  FramePublisher slow_publisher_;  ///< of what takes longer to make
+  TissueDepths depths_;            ///< used by its thread only, once it runs
   std::unique_ptr<SceneTopics> scene_topics_;
   std::unique_ptr<OctomapTopics> octomap_topics_;
   std::deque<TissueTopics> tissue_topics_;

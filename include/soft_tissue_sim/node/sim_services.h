@@ -17,9 +17,9 @@
 
 namespace soft_tissue_sim
 {
-/** Services that act on the physics as a whole, answered one after the other: `pause_physics`,
- * `unpause_physics`, `step`, `reset_world`, `reset_simulation`, `save_state`, `load_state` and
- * `set_material`; and at any time `cancel`. */
+/** Services that act on the physics as a whole: `pause_physics`, `unpause_physics`, `cancel`,
+ * `reset_world`, `reset_simulation`, `save_state`, `load_state` and `set_material`, answered one
+ * after the other, and `step`, between whose steps they act. */
 class SimServices
 {
  public:
@@ -40,16 +40,18 @@ class SimServices
   bool cancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   template <typename Act, typename Response>
-  void answer(const char* task, const Act& act, Response& response);
+  void answer(const char* name, const Act& act, Response& response);
 
   const SceneInfo& info_;
   PhysicsLoop& loop_;
   ProgressTopic& progress_;
-  ros::CallbackQueue queue_;  ///< its own: a long step holds no command up
-  ros::CallbackQueue cancel_queue_;
+  ros::CallbackQueue step_queue_;  ///< its own: the others can end a long step
+  ros::NodeHandle step_node_;
+  ros::AsyncSpinner step_spinner_;
+  ros::CallbackQueue queue_;  ///< its own: they hold no command up
   ros::NodeHandle node_;
   std::vector<ros::ServiceServer> servers_;
-  ros::AsyncSpinner spinner_, cancel_spinner_;
+  ros::AsyncSpinner spinner_;
 };
 
 }  // namespace soft_tissue_sim

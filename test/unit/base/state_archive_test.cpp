@@ -1,6 +1,7 @@
 #include "soft_tissue_sim/base/state_archive.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
@@ -141,6 +142,20 @@ TEST(StateArchive, TellsOtherVersionsApart)
   EXPECT_EQ(complaint(later), "has format version 2, must be 1");
 }
 
+template <typename Act>
+std::string complaintOf(const Act& act)
+{
+  try
+  {
+    act();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "none";
+}
+
 TEST(StateArchive, FilesComeWholeOrNotAtAll)
 {
   const ScratchFolder folder;
@@ -148,20 +163,24 @@ TEST(StateArchive, FilesComeWholeOrNotAtAll)
   writeBytes(file, "abc");
   writeBytes(file, std::string("d\0f", 3));
   EXPECT_EQ(readBytes(file), std::string("d\0f", 3));
-  const auto complains = [](const auto& act) -> std::string {
-    try
-    {
-      act();
-    }
-    catch (const Error& error)
-    {
-      return error.what();
-    }
-    return "none";
-  };
   const std::string nowhere = folder.path("gone") + "/state";
-  EXPECT_EQ(complains([&] { writeBytes(nowhere, "abc"); }), nowhere + ": can't be written");
-  EXPECT_EQ(complains([&] { readBytes(nowhere); }), nowhere + ": can't be read");
+  EXPECT_EQ(complaintOf([&] { writeBytes(nowhere, "abc"); }), nowhere + ": can't be written");
+  EXPECT_EQ(complaintOf([&] { readBytes(nowhere); }), nowhere + ": can't be read");
+}
+
+TEST(StateArchive, WhatIsNoFileIsNotWaitedFor)
+{
+  const ScratchFolder folder;
+  const std::string file = folder.path("state"), pipe = folder.path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {pipe, std::string("/dev/zero"), folder.path("")})
+  {
+    EXPECT_EQ(complaintOf([&] { readBytes(path); }), path + ": is no file");
+    EXPECT_EQ(complaintOf([&] { writeBytes(path, "abc"); }), path + ": is no file");
+  }
+  ASSERT_EQ(mkfifo((file + ".part").c_str(), 0600), 0);
+  writeBytes(file, "abc");
+  EXPECT_EQ(readBytes(file), "abc");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "support/field_meshes.h"
 #include "support/field_oracle.h"
@@ -67,6 +68,21 @@ TEST(DeformedDistance, FollowsTheBodyAndKnowsItsSurface)
   EXPECT_TRUE(std::isnan(nowhere.depth));
   EXPECT_EQ(nowhere.gradient, Vec3(Vec3::Zero()));
   EXPECT_EQ(nowhere.triangle, -1);
+}
+
+TEST(DeformedDistance, TellsOfPointsWhoseSquaresOverflow)
+{
+  const FieldBody ball(test::ballMesh(4, 1.0));
+  DeformedDistance distance(ball.surface);
+  distance.update(ball.mesh.nodes);
+  for (const double far : {1e99, 1e101, 1e200, 1e308})
+  {
+    const DeformedDistance::Answer answer = distance.at(Vec3(0.6 * far, 0, -0.8 * far));
+    EXPECT_NEAR(answer.depth / far, -1.0, 1e-12) << far;
+    EXPECT_NEAR((answer.gradient - Vec3(-0.6, 0, 0.8)).norm(), 0.0, 1e-12) << far;
+  }
+  const double largest = std::numeric_limits<double>::max();
+  EXPECT_EQ(distance.at(Vec3(largest, largest, 0)).depth, -std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

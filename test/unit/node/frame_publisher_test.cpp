@@ -59,5 +59,30 @@ TEST(FramePublisher, republishRepeatsTheLastFrameOnly)
   EXPECT_TRUE(waitFor([&] { return calls == 2; }));
 }
 
+TEST(FramePublisher, whatTakesLongHoldsUpNoneOfTheOtherThread)
+{
+  LatestExchange<Frame> frames, slow_frames;
+  FramePublisher publisher(frames), slow(slow_frames);
+  std::atomic<std::uint64_t> seen{0}, seen_late{0};
+  std::atomic<bool> held{true};
+  publisher.addStream(0.0, [&](const Frame& frame) { seen = frame.resets; });
+  publisher.addRelay(slow_frames);
+  slow.addStream(0.0, [&](const Frame& frame) {
+    seen_late = frame.resets;
+    EXPECT_TRUE(waitFor([&] { return !held; }));
+  });
+  slow.start();
+  publisher.start();
+  for (std::uint64_t i = 1; i <= 20; ++i)
+  {
+    frames.back().resets = i;
+    frames.publish();
+    EXPECT_TRUE(waitFor([&] { return seen == i; }));
+  }
+  EXPECT_LT(seen_late, 20u);
+  held = false;
+  EXPECT_TRUE(waitFor([&] { return seen_late == 20; }));
+}
+
 }  // namespace
 }  // namespace soft_tissue_sim

@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
+#include <string>
 #include <thread>
 
+#include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/node/scene_loader.h"
 
 namespace soft_tissue_sim
@@ -14,6 +17,7 @@ namespace
 {
 constexpr double kStep = 0.005;  // s, as in the scene
 constexpr double kStart = 1000.0;
+constexpr std::uint32_t kForLong = 4294967295u;  // steps: more than there is time for
 
 /** Waits until something holds, at most a minute. */
 template <typename Condition>
@@ -41,15 +45,9 @@ class Loop : public testing::Test
     EXPECT_TRUE(loop_->frames().acquire(late()));
   }
 
-  std::optional<PhysicsLoop::Stepped> step(std::uint32_t count)
+  PhysicsLoop::Stepped step(std::uint32_t count)
   {
     return loop_->step(count, [this](std::uint32_t done) { seen_.push_back(done); });
-  }
-
-  std::optional<double> timeAfter(std::uint32_t count)
-  {
-    const std::optional<PhysicsLoop::Stepped> stepped = step(count);
-    return stepped ? std::make_optional(stepped->time_s) : std::nullopt;
   }
 
   /** Starts under a clock that shows kStart, and waits until the loop follows it. */
@@ -95,6 +93,12 @@ class Loop : public testing::Test
   {
     loop_->frames().acquire(std::chrono::steady_clock::now());
     return loop_->frames().front();
+  }
+
+  /** Asks for more steps than there is time for. */
+  std::future<PhysicsLoop::Stepped> stepForLong()
+  {
+    return std::async(std::launch::async, [this] { return step(kForLong); });
   }
 
   static LatestExchange<Frame>::Deadline late()
@@ -149,15 +153,14 @@ TEST_F(Loop, aClockThatJumpsIsFollowedFromThere)
 TEST_F(Loop, onlyAPausedLoopStepsOnDemand)
 {
   start(TimeSource::wall);
-  EXPECT_FALSE(step(1));
+  EXPECT_THROW(step(1), soft_tissue::Error);
   EXPECT_TRUE(waitFor([this] { return steps() > 0; }));
   loop_->setPaused(true);
   const std::uint64_t before = steps();
-  const std::optional<double> time = timeAfter(7);
-  ASSERT_TRUE(time);
-  EXPECT_NEAR(*time, static_cast<double>(before + 7) * kStep, 1e-9);
+  const double time = step(7).time_s;
+  EXPECT_NEAR(time, static_cast<double>(before + 7) * kStep, 1e-9);
   EXPECT_EQ(steps(), before + 7);
-  EXPECT_NEAR(newest().snapshot.report.time_s, *time, 1e-9);
+  EXPECT_NEAR(newest().snapshot.report.time_s, time, 1e-9);
   loop_->setPaused(false);
   EXPECT_TRUE(waitFor([&] { return steps() > before + 7; }));
 }
@@ -170,15 +173,13 @@ TEST_F(Loop, obeysTheNewestCommandUntilAReset)
   {
     loop_->command(0, soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, z)), std::nullopt);
   }
-  ASSERT_TRUE(step(1));
+  step(1);
   EXPECT_NEAR(newest().snapshot.tools[0].X_WT.translation().z(), 0.05, 1e-12);
   loop_->command(0, soft_tissue::Pose(Eigen::Translation3d(0.0, 0.0, 0.08)), std::nullopt);
   loop_->resetWorld();
   EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
   EXPECT_EQ(newest().resets, 1u);
-  const std::optional<double> time = timeAfter(1);
-  ASSERT_TRUE(time);
-  EXPECT_NEAR(*time, 2 * kStep, 1e-12);
+  EXPECT_NEAR(step(1).time_s, 2 * kStep, 1e-12);
   EXPECT_TRUE(newest().snapshot.tools[0].X_WT.isApprox(first, 1e-12));
   EXPECT_NEAR(newest().stamp.toSec(), 2 * kStep, 1e-9);
 }
@@ -187,34 +188,61 @@ TEST_F(Loop, endsStepsThatAreCalledOff)
 {
   start(TimeSource::wall, true);
   EXPECT_FALSE(loop_->cancelSteps()) << "there are none";
-  std::optional<PhysicsLoop::Stepped> stepped;
-  std::thread caller([&] { stepped = step(1000000000u); });
+  auto caller = stepForLong();
   EXPECT_TRUE(waitFor([this] { return steps() > 1; }));
   EXPECT_TRUE(loop_->cancelSteps());
-  caller.join();
-  ASSERT_TRUE(stepped);
-  EXPECT_EQ(stepped->steps, steps());
-  EXPECT_NEAR(stepped->time_s, static_cast<double>(steps()) * kStep, 1e-9);
-  ASSERT_EQ(seen_.size(), stepped->steps);
+  const PhysicsLoop::Stepped stepped = caller.get();
+  EXPECT_EQ(stepped.steps, steps());
+  EXPECT_NEAR(stepped.time_s, static_cast<double>(steps()) * kStep, 1e-9);
+  ASSERT_EQ(seen_.size(), stepped.steps);
   for (std::size_t i = 0; i < seen_.size(); ++i)
   {
     EXPECT_EQ(seen_[i], i + 1);
   }
   EXPECT_FALSE(loop_->cancelSteps());
-  ASSERT_TRUE(step(2)) << "and no others";
-  EXPECT_EQ(steps(), stepped->steps + 2);
+  EXPECT_EQ(step(2).steps, 2u);
+  EXPECT_EQ(steps(), stepped.steps + 2) << "and no others";
 }
 
 TEST_F(Loop, stopsInTheMiddleOfALongTask)
 {
   start(TimeSource::wall, true);
-  std::thread caller([this] { step(1000000000u); });
+  auto caller = stepForLong();
   EXPECT_TRUE(waitFor([this] { return steps() > 0; }));
   std::thread waiting([this] { loop_->resetWorld(); });
   loop_->stop();
-  caller.join();
   waiting.join();
-  EXPECT_FALSE(step(1));
+  EXPECT_THROW(caller.get(), soft_tissue::Error);
+  EXPECT_THROW(step(1), soft_tissue::Error);
+}
+
+TEST_F(Loop, endsALongStepWhenItIsToldToPauseOrToRun)
+{
+  start(TimeSource::wall, true);
+  for (const bool paused : {true, false})
+  {
+    const std::uint64_t before = steps();
+    auto caller = stepForLong();
+    EXPECT_TRUE(waitFor([&] { return steps() > before; }));
+    loop_->resetWorld();  // other tasks don't wait for the last step, nor end it
+    const std::uint64_t between = steps();
+    EXPECT_TRUE(waitFor([&] { return steps() > between + 1; }));
+    loop_->setPaused(paused);
+    const PhysicsLoop::Stepped stepped = caller.get();
+    EXPECT_GT(stepped.steps, between - before);
+    EXPECT_LT(stepped.steps, kForLong);
+    EXPECT_EQ(loop_->counters().paused, paused);
+  }
+}
+
+TEST_F(Loop, takesStepsOfSeveralOneAfterTheOther)
+{
+  start(TimeSource::wall, true);
+  const auto twenty = [this] { return loop_->step(20, [](std::uint32_t) {}).time_s; };
+  auto first = std::async(std::launch::async, twenty);
+  auto second = std::async(std::launch::async, twenty);
+  EXPECT_NEAR(first.get() + second.get(), (20 + 40) * kStep, 1e-9);
+  EXPECT_EQ(steps(), 40u);
 }
 
 }  // namespace

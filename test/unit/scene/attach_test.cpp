@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/parallel.h"
@@ -246,9 +247,13 @@ TEST_P(Attach, RefusesWhatIsNotThere)
   Scene scene(block());
   EXPECT_THROW(scene.attach(within(-1.0)), Error);
   EXPECT_THROW(scene.attach(within(std::nan(""))), Error);
+  EXPECT_THROW(scene.attach(within(std::numeric_limits<double>::infinity())), Error);
   AttachRequest request = within(kReach);
-  request.stiffness_pa_per_m = 0.0;
-  EXPECT_THROW(scene.attach(request), Error);
+  for (const double stiffness : {0.0, 0.5, -1.0, 2e15, 1e308, std::nan("")})
+  {
+    request.stiffness_pa_per_m = stiffness;
+    EXPECT_THROW(scene.attach(request), Error) << stiffness;
+  }
   request = within(kReach);
   request.part = 1;
   EXPECT_THROW(scene.attach(request), Error);
