@@ -123,9 +123,9 @@ class GraspTest(unittest.TestCase):
     def test_what_is_not_there_is_told(self):
         cases = ((dict(part="thumb", reach=0.01), "part = 'thumb', must be one of: shaft, jaw_1, jaw_2"),
                  (dict(tissue="liver", reach=0.01), "tissue = 'liver', must be one of: block, strip"),
-                 (dict(reach=-1.0), "reach = -1.000000 m, must be >= 0"),
-                 (dict(reach=math.nan), "reach = nan m, must be >= 0"),
-                 (dict(reach=0.01, stiffness=-1.0), "stiffness = -1.000000 Pa/m, must be > 0"),
+                 (dict(reach=-1.0), "reach = -1 m, must be finite and >= 0"),
+                 (dict(reach=math.nan), "reach = nan m, must be finite and >= 0"),
+                 (dict(reach=0.01, stiffness=-1.0), "stiffness = -1 Pa/m, must be in [1, 1e+15]"),
                  (dict(reach=0.0), "no free node within reach that is not tied already"))
         for request, message in cases:
             answer = self.attach(**request)
