@@ -11,7 +11,7 @@ namespace soft_tissue
 namespace
 {
 /** Chunks a body is cut into at most, and the groups of lanes a chunk may hold. */
-constexpr Index kChunks = 48;
+constexpr Index kChunks = 96;
 constexpr Index kFewestGroups = 4;
 constexpr Index kMostGroups = 64;
 

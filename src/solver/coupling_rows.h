@@ -9,18 +9,21 @@
 
 namespace soft_tissue
 {
-/** The couplings of a matrix by rows, with their transposes, in one precision. */
+/** The couplings of a matrix by rows, with their transposes, in one precision, and with nodes in
+ * another order. */
 template <typename Real>
 class CouplingRows
 {
  public:
-  void load(const std::vector<Coupling>& couplings)
+  /** @param place  of each node in that order */
+  void load(const std::vector<Coupling>& couplings, const std::vector<Index>& place)
   {
     entries_.clear();
     for (Index i = 0; i < static_cast<Index>(couplings.size()); ++i)
     {
-      entries_.push_back({couplings[i].row, couplings[i].column, i, false});
-      entries_.push_back({couplings[i].column, couplings[i].row, i, true});
+      const Index row = place[couplings[i].row], column = place[couplings[i].column];
+      entries_.push_back({row, column, i, false});
+      entries_.push_back({column, row, i, true});
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
       return a.row != b.row ? a.row < b.row : a.column < b.column;

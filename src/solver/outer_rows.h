@@ -8,19 +8,26 @@
 
 namespace soft_tissue
 {
-/** Outer products by vectors and by nodes, in one precision, for products without any scatter. */
+/** Outer products by vectors and by nodes, in one precision, for products without any scatter, and
+ * with nodes in another order. */
 template <typename Real>
 class OuterRows
 {
  public:
-  void load(const OuterProducts& outer, Index node_count)
+  /** @param place  of each node in that order */
+  void load(const OuterProducts& outer, const std::vector<Index>& place)
   {
-    if (offsets_ != outer.offsets() || nodes_ != outer.nodes() ||
-        static_cast<Index>(node_offsets_.size()) != node_count + 1)
+    loaded_.clear();
+    for (const Index node : outer.nodes())
+    {
+      loaded_.push_back(place[node]);
+    }
+    if (offsets_ != outer.offsets() || nodes_ != loaded_ ||
+        node_offsets_.size() != place.size() + 1)
     {
       offsets_ = outer.offsets();
-      nodes_ = outer.nodes();
-      findByNode(node_count);
+      nodes_ = loaded_;
+      findByNode(static_cast<Index>(place.size()));
     }
     weights_.assign(outer.weights().begin(), outer.weights().end());
     vectors_.resize(3 * nodes_.size());
@@ -39,7 +46,8 @@ class OuterRows
 
   bool empty() const { return weights_.empty(); }
 
-  /** Block of a node on the diagonal, nine numbers, added in double precision. */
+  /** Block of a node on the diagonal, nine numbers, added in double precision.
+   * @param node  its place */
   void addDiagonal(Index node, double* block) const
   {
     for (Index place = node_offsets_[node]; place < node_offsets_[node + 1]; ++place)
@@ -122,6 +130,7 @@ class OuterRows
   }
 
   std::vector<Index> offsets_, nodes_;  ///< the pattern loaded last
+  std::vector<Index> loaded_;           ///< nodes of the last load()
   std::vector<Index> node_offsets_;     ///< of nodes in the arrays by node
   std::vector<Index> place_by_node_;    ///< per place among the vectors: that among the nodes
   std::vector<Index> vector_by_node_;   ///< per place among the nodes

@@ -13,17 +13,15 @@ namespace soft_tissue
 {
 namespace
 {
-// Per parallel piece, some microseconds each:
-constexpr Index kGrain = 256;        // rows of a matrix
-constexpr Index kVectorGrain = 512;  // nodes of a vector
-constexpr Index kGroupGrain = 10;    // groups of nodes
-constexpr Index kCoarseGrain = 48;   // rows of the groups' matrix
+constexpr Index kPiece = 128;       // nodes of a parallel piece where there are no groups
+constexpr Index kCoarseGrain = 48;  // rows of the groups' matrix, per parallel piece
 /** Answers no more exact than this are found in single precision, unless some nodes are so stiff
  * that rounded positions of theirs make forces that the soft ones' drown in. */
 constexpr double kSingleTolerance = 1e-3;
 
 /** Conjugate gradients in one precision, preconditioned by the inverse diagonal blocks plus the
- * rigid motions of groups of nodes. */
+ * rigid motions of groups of nodes. All of it has nodes in the groups' order, and groups for pieces
+ * of all loops: threads then read little of what others write. */
 template <typename Real>
 class Conjugator
 {
@@ -31,11 +29,11 @@ class Conjugator
   LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, int most, Points& d)
   {
     const Index n = a.rows();
+    d.assign(n, Vec3::Zero());
     if (!loaded_)
     {
       load(a);
     }
-    d.assign(n, Vec3::Zero());
     double scale = 0.0;  // |b| becomes about 1: what is squared below stays within range
     for (const Vec3& v : b)
     {
@@ -47,11 +45,11 @@ class Conjugator
       return {0, 0.0, scale != 0.0, false};
     }
     takeRightSide(b, 1.0 / scale);
-    const LinearReport report = iterate(a, n, tolerance, most);
+    const LinearReport report = iterate(n, tolerance, most);
     for (Index i = 0; i < n; ++i)
     {
       const Vec3 moved(solution_[3 * i], solution_[3 * i + 1], solution_[3 * i + 2]);
-      d[i] = scale * moved;
+      d[nodes_[i]] = scale * moved;
     }
     return report;
   }
@@ -62,12 +60,28 @@ class Conjugator
   /** Takes the coarse level of the next solves. */
   void setGroups(const RigidGroups& groups)
   {
-    arms_.assign(groups.arms().begin(), groups.arms().end());
+    nodes_ = groups.nodes();
+    place_.resize(nodes_.size());
+    group_.resize(nodes_.size());
+    arms_.resize(3 * nodes_.size());
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+    {
+      place_[nodes_[i]] = static_cast<Index>(i);
+      group_[i] = groups.group()[nodes_[i]];
+      for (int k = 0; k < 3; ++k)
+      {
+        arms_[3 * i + k] = static_cast<Real>(groups.arms()[3 * nodes_[i] + k]);
+      }
+    }
     coarse_inverse_.assign(groups.inverse().begin(), groups.inverse().end());
     coarse_residual_.assign(6 * static_cast<std::size_t>(groups.size()), Real(0));
     coarse_move_.assign(coarse_residual_.size() + 6, Real(0));
-    groups_ = {groups.size(), groups.offsets().data(), groups.nodes().data(), groups.group().data(),
-               arms_.data()};
+    pieces_ = groups.offsets();
+    while (pieces_.back() < static_cast<Index>(nodes_.size()))
+    {
+      pieces_.push_back(std::min(pieces_.back() + kPiece, static_cast<Index>(nodes_.size())));
+    }
+    groups_ = {groups.size(), groups.offsets().data(), group_.data(), arms_.data()};
   }
 
  private:
@@ -75,21 +89,27 @@ class Conjugator
   {
     const Index n = a.rows();
     loaded_ = true;
-    couplings_.load(a.couplings());
-    outer_.load(a.outer(), n);
-    values_.resize(a.values().size());
+    couplings_.load(a.couplings(), place_);
+    outer_.load(a.outer(), place_);
+    offsets_.assign(1, 0);
+    for (const Index node : nodes_)
+    {
+      offsets_.push_back(offsets_.back() + a.offsets()[node + 1] - a.offsets()[node]);
+    }
+    columns_.resize(a.columns().size());
+    values_.resize(9 * a.columns().size() + 1);
     inverse_.resize(9 * static_cast<std::size_t>(n) + 1);
-    parallelFor(n, kGrain, [&](Index begin, Index end) {
-      for (Index row = begin; row < end; ++row)
+    parallelFor(pieceCount(), 1, [&](Index begin, Index end) {
+      for (Index i = pieces_[begin]; i < pieces_[end]; ++i)
       {
-        loadRow(a, row);
-        Mat3 diagonal = Eigen::Map<const Mat3>(a.block(a.diagonal(row)));
-        outer_.addDiagonal(row, diagonal.data());
+        loadRow(a, i);
+        Mat3 diagonal = Eigen::Map<const Mat3>(a.block(a.diagonal(nodes_[i])));
+        outer_.addDiagonal(i, diagonal.data());
         const Mat3 inverse = diagonal.inverse();
         const bool usable = inverse.allFinite();
         for (int k = 0; k < 9; ++k)
         {
-          inverse_[9 * row + k] = static_cast<Real>(usable ? inverse.data()[k] : k % 4 == 0);
+          inverse_[9 * i + k] = static_cast<Real>(usable ? inverse.data()[k] : k % 4 == 0);
         }
       }
     });
@@ -105,16 +125,19 @@ class Conjugator
     {
       for (int k = 0; k < 3; ++k)
       {
-        residual_[3 * i + k] = static_cast<Real>(scale * b[i][k]);
+        residual_[3 * i + k] = static_cast<Real>(scale * b[nodes_[i]][k]);
       }
     }
   }
 
-  void loadRow(const BlockMatrix& a, Index row)
+  void loadRow(const BlockMatrix& a, Index place)
   {
-    for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
+    const Index row = nodes_[place];
+    Index* column = columns_.data() + offsets_[place];
+    Real* to = values_.data() + 9 * static_cast<std::size_t>(offsets_[place]);
+    for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k, ++column, to += 9)
     {
-      Real* to = values_.data() + 9 * static_cast<std::size_t>(k);
+      *column = place_[a.columns()[k]];
       const bool upper = k >= a.diagonal(row);
       const double* from = a.block(upper ? k : a.mirror(k));
       for (int i = 0; i < 9; ++i)
@@ -124,24 +147,26 @@ class Conjugator
     }
   }
 
-  LinearReport iterate(const BlockMatrix& a, Index n, double tolerance, int most)
+  LinearReport iterate(Index n, double tolerance, int most)
   {
     const PcgKernels<Real>& kernels = pcgKernels<Real>(instructionSet());
-    const BlockRows<Real> rows = {a.offsets().data(), a.columns().data(), values_.data()};
+    const BlockRows<Real> rows = {offsets_.data(), columns_.data(), values_.data()};
     Real* d = solution_.data();
     Real* r = residual_.data();
     Real* p = direction_.data();
     Real* q = image_.data();
     const Real* inverse = inverse_.data();
-    PcgSums now = parallelSum(n, kVectorGrain, [&](Index begin, Index end) {
-      return kernels.precondition(begin, end, inverse, r, p);
+    PcgSums now = parallelSum(pieceCount(), 1, [&](Index begin, Index end) {
+      gather(kernels, begin, end);
+      return kernels.precondition(pieces_[begin], pieces_[end], inverse, r, p);
     });
     now.rz += solveCoarse(kernels);
     const Real* move = coarse_move_.data();
     if (groups_.size > 0)
     {
-      parallelFor(n, kVectorGrain,
-                  [&](Index begin, Index end) { kernels.spread(groups_, begin, end, move, p); });
+      parallelFor(pieceCount(), 1, [&](Index begin, Index end) {
+        kernels.spread(groups_, pieces_[begin], pieces_[end], move, p);
+      });
     }
     const double all = now.rr, enough = tolerance * tolerance * all;
     const int hopeless = 10 * static_cast<int>(n) + 100;
@@ -149,8 +174,8 @@ class Conjugator
     while (now.rr > enough && iteration < std::min(most, hopeless))
     {
       ++iteration;
-      double curvature = parallelSum(n, kGrain, [&](Index begin, Index end) {
-        return kernels.multiply(rows, begin, end, p, q);
+      double curvature = parallelSum(pieceCount(), 1, [&](Index begin, Index end) {
+        return kernels.multiply(rows, pieces_[begin], pieces_[end], p, q);
       });
       curvature += couplings_.addProduct(kernels, p, q);
       if (!outer_.empty())
@@ -162,8 +187,11 @@ class Conjugator
         return {iteration, 1.0, true, false};
       }
       const Real step = static_cast<Real>(now.rz / curvature);
-      PcgSums next = parallelSum(n, kVectorGrain, [&](Index begin, Index end) {
-        return kernels.advance(begin, end, inverse, step, p, d, r, q);
+      PcgSums next = parallelSum(pieceCount(), 1, [&](Index begin, Index end) {
+        const PcgSums sums =
+            kernels.advance(pieces_[begin], pieces_[end], inverse, step, p, d, r, q);
+        gather(kernels, begin, end);
+        return sums;
       });
       if (!std::isfinite(next.rr))  // singular, and no solution
       {
@@ -173,28 +201,34 @@ class Conjugator
       next.rz += solveCoarse(kernels);
       const Real ratio = static_cast<Real>(next.rz / now.rz);
       now = next;
-      parallelFor(n, kVectorGrain, [&](Index begin, Index end) {
+      parallelFor(pieceCount(), 1, [&](Index begin, Index end) {
         if (groups_.size > 0)
         {
-          kernels.spread(groups_, begin, end, move, q);
+          kernels.spread(groups_, pieces_[begin], pieces_[end], move, q);
         }
-        kernels.turn(begin, end, ratio, q, p);
+        kernels.turn(pieces_[begin], pieces_[end], ratio, q, p);
       });
     }
     return {iteration, std::sqrt(now.rr / all), !std::isfinite(now.rr),
             now.rr > enough && iteration == most};
   }
 
-  /** Groups' moves for the residual; its product with them. */
+  Index pieceCount() const { return static_cast<Index>(pieces_.size()) - 1; }
+
+  /** The residual's sums over those pieces that are groups. */
+  void gather(const PcgKernels<Real>& kernels, Index begin, Index end)
+  {
+    kernels.gather(groups_, begin, std::min(end, groups_.size), residual_.data(),
+                   coarse_residual_.data());
+  }
+
+  /** Groups' moves for the residual that was gathered; its product with them. */
   double solveCoarse(const PcgKernels<Real>& kernels)
   {
     if (groups_.size == 0)
     {
       return 0.0;
     }
-    parallelFor(groups_.size, kGroupGrain, [&](Index begin, Index end) {
-      kernels.gather(groups_, begin, end, residual_.data(), coarse_residual_.data());
-    });
     const Index size = 6 * groups_.size;
     parallelFor(size, kCoarseGrain, [&](Index begin, Index end) {
       kernels.multiplyDense(size, begin, end, coarse_inverse_.data(), coarse_residual_.data(),
@@ -209,6 +243,10 @@ class Conjugator
   }
 
   bool loaded_ = false;
+  std::vector<Index> nodes_, place_;  ///< the order, and each node's place in it
+  std::vector<Index> group_;          ///< by places
+  std::vector<Index> pieces_ = {0};   ///< of places: where each begins, and the end
+  std::vector<Index> offsets_, columns_;
   std::vector<Real> values_;  ///< the matrix, both triangles
   CouplingRows<Real> couplings_;
   OuterRows<Real> outer_;

@@ -164,8 +164,8 @@ void gather(const NodeGroups<Real>& groups, Index begin, Index end, const Real* 
     Real sum[6] = {};
     for (Index i = groups.offsets[g]; i < groups.offsets[g + 1]; ++i)
     {
-      const Real* v = r + 3 * static_cast<long>(groups.nodes[i]);
-      const Real* arm = groups.arms + 3 * static_cast<long>(groups.nodes[i]);
+      const Real* v = r + 3 * static_cast<long>(i);
+      const Real* arm = groups.arms + 3 * static_cast<long>(i);
       sum[0] += v[0];
       sum[1] += v[1];
       sum[2] += v[2];

@@ -218,6 +218,13 @@ void RigidGroups::makeGroups(const BlockMatrix& a, const Points& x)
     }
     offsets_.push_back(end);
   }
+  for (Index node = 0; node < static_cast<Index>(x.size()); ++node)
+  {
+    if (group_[node] == count)
+    {
+      nodes_.push_back(node);
+    }
+  }
 }
 
 void RigidGroups::measureContrast(const BlockMatrix& a)

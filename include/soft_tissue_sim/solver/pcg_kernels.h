@@ -32,10 +32,9 @@ template <typename Real>
 struct NodeGroups
 {
   Index size;            ///< groups
-  const Index* offsets;  ///< size + 1, into nodes
-  const Index* nodes;
-  const Index* group;  ///< per node; size: in none
-  const Real* arms;    ///< per node, 3: from the group's centre
+  const Index* offsets;  ///< size + 1: nodes of group g are offsets[g] ... offsets[g + 1] - 1
+  const Index* group;    ///< per node; size: in none
+  const Real* arms;      ///< per node, 3: from the group's centre
 };
 
 /**

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -122,6 +124,65 @@ TEST_P(Parallel, longSumsHaveAtMost256Pieces)
     {
       ASSERT_EQ(visit, 1);
     }
+  }
+}
+
+TEST_P(Parallel, aLoopWithinALoopIsDoneWhole)
+{
+  std::atomic<int> calls{0};
+  parallelFor(20, 1, [&](Index, Index) { parallelFor(30, 1, [&](Index, Index) { ++calls; }); });
+  EXPECT_EQ(calls, 600);
+}
+
+TEST_P(Parallel, loopsOfSeveralThreadsAreDoneWhole)
+{
+  std::vector<std::thread> callers;
+  std::vector<double> sums(4, 0.0);
+  for (double& sum : sums)
+  {
+    callers.emplace_back([&sum] {
+      for (int run = 0; run < 500; ++run)
+      {
+        sum += parallelSum(100, 3, [](Index begin, Index end) { return end - begin; });
+      }
+    });
+  }
+  for (std::thread& caller : callers)
+  {
+    caller.join();
+  }
+  EXPECT_EQ(sums, std::vector<double>(4, 50000.0));
+}
+
+TEST_P(Parallel, loopsOfAllSizesFollowEachOther)
+{
+  std::vector<int> visits;
+  for (int run = 0; run < 20000; ++run)
+  {
+    const Index count = run * 7919 % 37;
+    visits.assign(count, 0);
+    parallelFor(count, 1, [&](Index begin, Index) { ++visits[begin]; });
+    ASSERT_EQ(std::count(visits.begin(), visits.end(), 1), count) << "run " << run;
+    if (run % 2000 == 0)  // threads that wait go to sleep
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+}
+
+TEST_P(Parallel, anErrorComesOut)
+{
+  for (int run = 0; run < 100; ++run)
+  {
+    EXPECT_THROW(parallelFor(40, 1,
+                             [&](Index begin, Index) {
+                               if (begin % 10 == 7)
+                               {
+                                 throw Error("piece " + std::to_string(begin));
+                               }
+                             }),
+                 Error);
+    EXPECT_EQ(parallelSum(40, 1, [](Index, Index) { return 1; }), 40) << "loops go on";
   }
 }
 

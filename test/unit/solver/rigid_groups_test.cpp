@@ -238,13 +238,34 @@ TEST(RigidGroups, BelongToOneBodyEachAndSeeWhatCouplesThem)
   EXPECT_FALSE(coupled.outdated(matrix, pair.nodes));
 }
 
+TEST(RigidGroups, PutAllNodesInAnOrder)
+{
+  const Bar bar;
+  RigidGroups groups;
+  groups.build(bar.matrix, bar.mesh.nodes);
+  ASSERT_GT(groups.size(), 1);
+  std::vector<Index> nodes = groups.nodes();
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    const auto after =
+        std::upper_bound(groups.offsets().begin(), groups.offsets().end(), static_cast<Index>(i));
+    EXPECT_EQ(groups.group()[nodes[i]], after - groups.offsets().begin() - 1);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  ASSERT_EQ(nodes.size(), bar.mesh.nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    EXPECT_EQ(nodes[i], static_cast<Index>(i));
+  }
+}
+
 TEST(RigidGroups, AreOutdatedByWhatIsFarFromWhereTheyWereBuilt)
 {
   const Bar bar;
   RigidGroups groups;
   groups.build(bar.matrix, bar.mesh.nodes);
   Points x = bar.mesh.nodes;
-  const Index last = groups.nodes().back();
+  const Index last = groups.nodes()[groups.offsets().back() - 1];
   x[last].x() += 0.01;
   EXPECT_FALSE(groups.outdated(bar.matrix, x));
   x[last].x() += 1.0;
