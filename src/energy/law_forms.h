@@ -2,10 +2,12 @@
  * What a constitutive law tells of itself, and what follows from it. Included by kernel files only
  * (see pack.h).
  *
- * A law is a struct of static functions: energy density and first Piola-Kirchhoff stress of F, and
- * what its form asks for.
+ * A law is a struct of static functions: energy density and first Piola-Kirchhoff stress of F,
+ * stressAndEnergy() if both at once cost less, and what its form asks for.
  */
 #pragma once
+
+#include <type_traits>
 
 #include "soft_tissue_sim/energy/tet_kernels.h"
 #include "svd3.h"
@@ -19,9 +21,30 @@ enum class Form
 {
   invariants,  ///< from InvariantStiffness where it is not projected, else from the stretches
   stretches,   ///< from PrincipalStiffness
+  rotation,    ///< from the polar decomposition where it is not projected, else from the stretches
   linear,      ///< from Lame parameters: it does not depend on F
   strain,      ///< of StrainMemory, which is no law by itself
 };
+
+template <typename Law, typename = void>
+constexpr bool kBothAtOnce = false;
+template <typename Law>
+constexpr bool kBothAtOnce<Law, std::void_t<decltype(Law::stressAndEnergy)>> = true;
+
+/** A law's stress, and its energy density. */
+template <typename Law>
+SOFT_TISSUE_INLINE PackMat stressAndEnergy(const PackMat& f, const Pack* c, Pack& energy)
+{
+  if constexpr (kBothAtOnce<Law>)
+  {
+    return Law::stressAndEnergy(f, c, energy);
+  }
+  else
+  {
+    energy = Law::energy(f, c);
+    return Law::stress(f, c);
+  }
+}
 
 /**
  * Second derivatives of an isotropic law in principal stretches s, from which one routine builds

@@ -3,6 +3,7 @@
  */
 #pragma once
 
+#include "polar3.h"
 #include "strain_memory.h"
 
 namespace soft_tissue
@@ -43,44 +44,34 @@ struct OfLameAndPressure : OfLame
 template <typename Base>
 struct CorotatedLaw : Base
 {
-  static constexpr Form kForm = Form::stretches;
+  static constexpr Form kForm = Form::rotation;
 
-  static Pack dilatation(const PackMat& f)
+  /** Sum of two stretches below which the stiffness is cut off. */
+  static constexpr double kLeastPair = 1e-6;
+
+  static Pack dilatation(const PackMat& f) { return polar(f).trace - 3.0; }
+  static PackMat dilatationGradient(const PackMat& f) { return polar(f).rotation; }
+
+  static Pack energy(const PackMat& f, const Pack* c) { return energyOf(f, polar(f), c); }
+  static PackMat stress(const PackMat& f, const Pack* c) { return stressOf(f, polar(f), c); }
+  /** Both at once, for the decomposition is most of either. */
+  static PackMat stressAndEnergy(const PackMat& f, const Pack* c, Pack& energy)
   {
-    const Svd svd = signedSvd(f);
-    return svd.sigma[0] + svd.sigma[1] + svd.sigma[2] - 3.0;
+    const Polar polar_f = polar(f);
+    energy = energyOf(f, polar_f, c);
+    return stressOf(f, polar_f, c);
   }
-  static PackMat dilatationGradient(const PackMat& f) { return rotation(signedSvd(f)); }
 
-  static Pack energy(const PackMat& f, const Pack* c)
+  /** Factor of R in the stress 2 mu F + tension R. */
+  static Pack tension(Pack trace, const Pack* c)
   {
-    const Svd svd = signedSvd(f);
-    const Pack e0 = svd.sigma[0] - 1.0, e1 = svd.sigma[1] - 1.0, e2 = svd.sigma[2] - 1.0;
-    const Pack trace = e0 + e1 + e2;
-    return c[0] * (e0 * e0 + e1 * e1 + e2 * e2) + 0.5 * c[1] * trace * trace;
-  }
-
-  static PackMat stress(const PackMat& f, const Pack* c)
-  {
-    const Svd svd = signedSvd(f);
-    const Pack trace = svd.sigma[0] + svd.sigma[1] + svd.sigma[2] - 3.0;
-    const Pack pressure = Base::pressure(trace, c) - 2.0 * c[0];
-    const PackMat r = rotation(svd);
-    PackMat p;
-    for (int i = 0; i < 3; ++i)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        p.m[i][j] = 2.0 * c[0] * f.m[i][j] + pressure * r.m[i][j];
-      }
-    }
-    return p;
+    return Base::pressure(trace - 3.0, c) - 2.0 * c[0];
   }
 
   static PrincipalStiffness principal(const Pack* s, const Pack* c)
   {
     const Pack zero = {};
-    const Pack spin = 2.0 * (Base::pressure(s[0] + s[1] + s[2] - 3.0, c) - 2.0 * c[0]);
+    const Pack spin = 2.0 * tension(s[0] + s[1] + s[2], c);
     PrincipalStiffness k;
     for (int i = 0; i < 3; ++i)
     {
@@ -92,24 +83,37 @@ struct CorotatedLaw : Base
       // infinite.
       const Pack pair = s[(i + 1) % 3] + s[(i + 2) % 3];
       k.difference[i] = 2.0 * c[0];
-      k.sum[i] = 2.0 * c[0] + spin / max(pair, zero + 1e-6);
+      k.sum[i] = 2.0 * c[0] + spin / max(pair, zero + kLeastPair);
     }
     return k;
   }
 
  private:
-  static PackMat rotation(const Svd& svd)
+  static Pack energyOf(const PackMat& f, const Polar& polar_f, const Pack* c)
   {
-    PackMat r;
+    const Pack trace = polar_f.trace - 3.0;
+    Pack squares = {};
+    for (int k = 0; k < 9; ++k)
+    {
+      const Pack apart = f.m[k / 3][k % 3] - polar_f.rotation.m[k / 3][k % 3];
+      squares += apart * apart;
+    }
+    return c[0] * squares + 0.5 * c[1] * trace * trace;
+  }
+
+  static PackMat stressOf(const PackMat& f, const Polar& polar_f, const Pack* c)
+  {
+    const Pack pressure = Base::pressure(polar_f.trace - 3.0, c);
+    PackMat p;
     for (int i = 0; i < 3; ++i)
     {
       for (int j = 0; j < 3; ++j)
       {
-        r.m[i][j] = svd.u.m[i][0] * svd.v.m[j][0] + svd.u.m[i][1] * svd.v.m[j][1] +
-                    svd.u.m[i][2] * svd.v.m[j][2];
+        const Pack r = polar_f.rotation.m[i][j];
+        p.m[i][j] = 2.0 * c[0] * (f.m[i][j] - r) + pressure * r;
       }
     }
-    return r;
+    return p;
   }
 };
 

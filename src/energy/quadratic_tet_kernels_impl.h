@@ -35,8 +35,9 @@ void quadraticGradient(const TetGroups& groups, Index begin, Index end, const do
         Pack by_edges[3][4][3];  // [axis][k][j]: derivative of the energy by d_kj
         Pack far[3][3] = {};
         forGaussPoints<Material>(groups, group, lane, t, [&](int k, const Lanes<Material>& at) {
-          sum += Material::energy(at.f, at.constants);
-          const PackMat p = Material::stress(at.f, at.constants);
+          Pack density;
+          const PackMat p = stressAndEnergy<Material>(at.f, at.constants, density);
+          sum += density;
           for (int i = 0; i < 3; ++i)
           {
             for (int j = 0; j < 3; ++j)

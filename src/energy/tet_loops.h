@@ -25,9 +25,9 @@ void tetGradient(const TetGroups& groups, Index begin, Index end, const double* 
                  double* energies)
 {
   forLanes<Material>(groups, begin, end, x, [&](Index group, int lane, const Lanes<Material>& t) {
-    store(energies + 8 * static_cast<long>(group) + lane,
-          t.volume * Material::energy(t.f, t.constants));
-    const PackMat p = Material::stress(t.f, t.constants);
+    Pack density;
+    const PackMat p = stressAndEnergy<Material>(t.f, t.constants, density);
+    store(energies + 8 * static_cast<long>(group) + lane, t.volume * density);
     Pack g[padded(12)];
     for (int i = 0; i < 3; ++i)
     {

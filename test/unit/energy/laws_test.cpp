@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "support/deformed_tets.h"
@@ -196,6 +197,35 @@ TEST(Laws, ExponentialIsStableAgainstEveryShear)
         const Eigen::Map<const Eigen::VectorXd> v(wave.data(), 9);
         EXPECT_GT(v.dot(stiffness * v), -1e-12 * stiffness.norm()) << f.name;
       }
+    }
+  }
+}
+
+TEST(CorotatedLaw, IsThatOfItsStretchesHoweverNearTheyCancel)
+{
+  constexpr double kRounding = 1e-15;
+  const Lame lame = lameFrom(kYoung, kPoisson);
+  Law law(MaterialModel::corotated, {kYoung, kPoisson});
+  std::mt19937 random(11);
+  for (const Vec3& s :
+       {Vec3(1, 1, 1), Vec3(1.2, 0.7, 0), Vec3(1.2, 0.7, -0.5), Vec3(1.2, 0.7, -0.69),
+        Vec3(1.2, 0.7, -0.6999), Vec3(1.2, 0.7, -0.6999999), Vec3(1, 1, -0.99999),
+        Vec3(1, 1e-3, 1e-3), Vec3(1, 1e-6, -1e-7), Vec3(1, 0.5, 1e-8), Vec3(1e3, 1e-3, 1e-3),
+        Vec3(30, 20, -19), Vec3(1e-4, 1e-5, 1e-5), Vec3(1e9, 1e3, 1), Vec3(1e40, 1e39, 1e38)})
+  {
+    for (int turn = 0; turn < 20; ++turn)
+    {
+      const Mat3 u = randomRotation(random), v = randomRotation(random);
+      const Mat3 f = u * s.asDiagonal() * v.transpose();
+      const Vec3 strain = s - Vec3::Ones();
+      const double trace = strain.sum();
+      const double energy = lame.mu * strain.squaredNorm() + 0.5 * lame.lambda * trace * trace;
+      // Positions are rounded, and how fast the rotation turns with them.
+      const double size = 1.0 + s[0], rounded = kRounding * size / (s[1] + s[2]);
+      EXPECT_NEAR(law.energy(f), energy, 20.0 * kRounding * kYoung * size * size) << s.transpose();
+      const Vec3 force = 2.0 * lame.mu * strain + lame.lambda * trace * Vec3::Ones();
+      const Mat3 stress = u * force.asDiagonal() * v.transpose();
+      EXPECT_LT((law.stress(f) - stress).norm(), 20.0 * rounded * kYoung * size) << s.transpose();
     }
   }
 }
