@@ -44,6 +44,20 @@ inline PackMat cofactor(const PackMat& a)
   return c;
 }
 
+/** Rows of a times the transposed matrix of rows b. */
+inline PackMat timesTransposed(const PackMat& a, const PackMat& b)
+{
+  PackMat r;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      r.m[i][j] = a.m[i][0] * b.m[j][0] + a.m[i][1] * b.m[j][1] + a.m[i][2] * b.m[j][2];
+    }
+  }
+  return r;
+}
+
 inline Pack frobeniusSquared(const PackMat& a)
 {
   Pack sum = a.m[0][0] * a.m[0][0];

@@ -39,7 +39,7 @@ class RigidGroups
   int size() const { return static_cast<int>(offsets_.size()) - 1; }  ///< groups; 0 without level
   /** Nodes of group g: nodes()[offsets()[g]] ... nodes()[offsets()[g + 1] - 1]. */
   const std::vector<Index>& offsets() const { return offsets_; }
-  /** All nodes of A, group by group, neighbours among groups near each other; then those in none. */
+  /** All nodes of A, group by group, with near groups after each other; then those in none. */
   const std::vector<Index>& nodes() const { return nodes_; }
   /** Per node of A: its group; size() for nodes in none, that nothing couples to others. */
   const std::vector<Index>& group() const { return group_; }
