@@ -8,7 +8,7 @@
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/energy/tet_elasticity.h"
 #include "soft_tissue_sim/mesh/generate.h"
-#include "soft_tissue_sim/solver/pcg_kernels.h"
+#include "soft_tissue_sim/solver/packed_rows.h"
 #include "timing.h"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -156,11 +156,22 @@ void measureProduct(RooflineTable& table, const char* loop, const TetMesh& mesh,
 {
   const double blocks = static_cast<double>(matrix.columns().size());
   const double rows = matrix.rows();
-  const std::vector<Real> values(matrix.values().size(), Real(0.5));
-  const std::vector<Real> p(3 * mesh.nodes.size(), Real(1.0));
-  std::vector<Real> q(p.size());
-  const BlockRows<Real> a = {matrix.offsets().data(), matrix.columns().data(), values.data()};
   const PcgKernels<Real>& kernels = pcgKernels<Real>(instructionSet());
+  PackedRows<Real> packed;
+  for (Index row = 0; row < matrix.rows(); ++row)
+  {
+    for (Index k = matrix.offsets()[row]; k < matrix.offsets()[row + 1]; ++k)
+    {
+      packed.add(matrix.columns()[k], k, false);
+    }
+    packed.endRow();
+  }
+  packed.finish();
+  const std::vector<double> values(matrix.values().size(), 0.5);
+  packed.load(kernels, values.data(), 0, matrix.rows());
+  const BlockRows<Real> a = packed.view();
+  const std::vector<Real> p(3 * mesh.nodes.size() + 1, Real(1.0));
+  std::vector<Real> q(p.size());
   double product = 0.0;
   const double seconds =
       secondsOf([&] { product += kernels.multiply(a, 0, matrix.rows(), p.data(), q.data()); });

@@ -5,7 +5,7 @@
 
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/energy/block_matrix.h"
-#include "soft_tissue_sim/solver/pcg_kernels.h"
+#include "soft_tissue_sim/solver/packed_rows.h"
 
 namespace soft_tissue
 {
@@ -16,7 +16,8 @@ class CouplingRows
 {
  public:
   /** @param place  of each node in that order */
-  void load(const std::vector<Coupling>& couplings, const std::vector<Index>& place)
+  void load(const PcgKernels<Real>& kernels, const std::vector<Coupling>& couplings,
+            const std::vector<Index>& place)
   {
     entries_.clear();
     for (Index i = 0; i < static_cast<Index>(couplings.size()); ++i)
@@ -28,44 +29,48 @@ class CouplingRows
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
       return a.row != b.row ? a.row < b.row : a.column < b.column;
     });
-    rows_.clear();
-    offsets_.clear();
-    columns_.clear();
-    values_.resize(9 * entries_.size() + 1);
-    for (std::size_t k = 0; k < entries_.size(); ++k)
+    blocks_.resize(9 * couplings.size() + 1);
+    for (std::size_t i = 0; i < couplings.size(); ++i)
     {
-      const Entry& entry = entries_[k];
-      if (rows_.empty() || rows_.back() != entry.row)
-      {
-        rows_.push_back(entry.row);
-        offsets_.push_back(static_cast<Index>(k));
-      }
-      columns_.push_back(entry.column);
-      const double* block = couplings[entry.coupling].block.data();
-      for (int i = 0; i < 9; ++i)
-      {
-        values_[9 * k + i] = static_cast<Real>(block[entry.transposed ? 3 * (i % 3) + i / 3 : i]);
-      }
+      std::copy_n(couplings[i].block.data(), 9, blocks_.data() + 9 * i);
     }
-    offsets_.push_back(static_cast<Index>(entries_.size()));
-    product_.resize(3 * rows_.size());
+    nodes_.clear();
+    rows_.clear();
+    for (const Entry& entry : entries_)
+    {
+      if (nodes_.empty() || nodes_.back() != entry.row)
+      {
+        if (!nodes_.empty())
+        {
+          rows_.endRow();
+        }
+        nodes_.push_back(entry.row);
+      }
+      rows_.add(entry.column, entry.coupling, entry.transposed);
+    }
+    if (!nodes_.empty())
+    {
+      rows_.endRow();
+    }
+    rows_.finish();
+    rows_.load(kernels, blocks_.data(), 0, rows_.rows());
+    product_.resize(3 * nodes_.size());
   }
 
   /** q += C p for flat vectors, 3 numbers a node. @return p . C p */
   double addProduct(const PcgKernels<Real>& kernels, const Real* p, Real* q)
   {
     constexpr Index kGrain = 128;
-    const BlockRows<Real> rows = {offsets_.data(), columns_.data(), values_.data()};
-    return parallelSum(static_cast<Index>(rows_.size()), kGrain, [&](Index begin, Index end) {
-      kernels.multiplyRows(rows, begin, end, p, product_.data());
+    return parallelSum(rows_.rows(), kGrain, [&](Index begin, Index end) {
+      kernels.multiplyRows(rows_.view(), begin, end, p, product_.data());
       double sum = 0.0;
       for (Index i = begin; i < end; ++i)
       {
         const Real* from = product_.data() + 3 * static_cast<std::size_t>(i);
         for (int k = 0; k < 3; ++k)
         {
-          q[3 * rows_[i] + k] += from[k];
-          sum += static_cast<double>(p[3 * rows_[i] + k]) * from[k];
+          q[3 * nodes_[i] + k] += from[k];
+          sum += static_cast<double>(p[3 * nodes_[i] + k]) * from[k];
         }
       }
       return sum;
@@ -79,10 +84,9 @@ class CouplingRows
     bool transposed;
   };
   std::vector<Entry> entries_;  ///< by row, then column
-  std::vector<Index> rows_;     ///< that have any
-  std::vector<Index> offsets_;  ///< of those rows
-  std::vector<Index> columns_;
-  std::vector<Real> values_;
+  std::vector<double> blocks_;
+  std::vector<Index> nodes_;  ///< of the rows
+  PackedRows<Real> rows_;
   std::vector<Real> product_;
 };
 

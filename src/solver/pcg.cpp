@@ -6,7 +6,7 @@
 #include "outer_rows.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
-#include "soft_tissue_sim/solver/pcg_kernels.h"
+#include "soft_tissue_sim/solver/packed_rows.h"
 #include "soft_tissue_sim/solver/rigid_groups.h"
 
 namespace soft_tissue
@@ -60,10 +60,14 @@ class Conjugator
   /** Takes the coarse level of the next solves. */
   void setGroups(const RigidGroups& groups)
   {
+    if (nodes_ != groups.nodes())
+    {
+      offsets_.clear();
+    }
     nodes_ = groups.nodes();
     place_.resize(nodes_.size());
     group_.resize(nodes_.size());
-    arms_.resize(3 * nodes_.size());
+    arms_.resize(3 * nodes_.size() + 1);
     for (std::size_t i = 0; i < nodes_.size(); ++i)
     {
       place_[nodes_[i]] = static_cast<Index>(i);
@@ -75,7 +79,7 @@ class Conjugator
     }
     coarse_inverse_.assign(groups.inverse().begin(), groups.inverse().end());
     coarse_residual_.assign(6 * static_cast<std::size_t>(groups.size()), Real(0));
-    coarse_move_.assign(coarse_residual_.size() + 6, Real(0));
+    coarse_move_.assign(coarse_residual_.size() + 7, Real(0));
     pieces_ = groups.offsets();
     while (pieces_.back() < static_cast<Index>(nodes_.size()))
     {
@@ -87,22 +91,19 @@ class Conjugator
  private:
   void load(const BlockMatrix& a)
   {
-    const Index n = a.rows();
+    const PcgKernels<Real>& kernels = pcgKernels<Real>(instructionSet());
     loaded_ = true;
-    couplings_.load(a.couplings(), place_);
+    couplings_.load(kernels, a.couplings(), place_);
     outer_.load(a.outer(), place_);
-    offsets_.assign(1, 0);
-    for (const Index node : nodes_)
+    if (offsets_ != a.offsets() || columns_ != a.columns())
     {
-      offsets_.push_back(offsets_.back() + a.offsets()[node + 1] - a.offsets()[node]);
+      takePattern(a);
     }
-    columns_.resize(a.columns().size());
-    values_.resize(9 * a.columns().size() + 1);
-    inverse_.resize(9 * static_cast<std::size_t>(n) + 1);
+    inverse_.resize(9 * static_cast<std::size_t>(a.rows()) + 1);
     parallelFor(pieceCount(), 1, [&](Index begin, Index end) {
+      rows_.load(kernels, a.values().data(), pieces_[begin], pieces_[end]);
       for (Index i = pieces_[begin]; i < pieces_[end]; ++i)
       {
-        loadRow(a, i);
         Mat3 diagonal = Eigen::Map<const Mat3>(a.block(a.diagonal(nodes_[i])));
         outer_.addDiagonal(i, diagonal.data());
         const Mat3 inverse = diagonal.inverse();
@@ -115,9 +116,26 @@ class Conjugator
     });
   }
 
+  void takePattern(const BlockMatrix& a)
+  {
+    offsets_ = a.offsets();
+    columns_ = a.columns();
+    rows_.clear();
+    for (const Index row : nodes_)
+    {
+      for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
+      {
+        const bool below = k < a.diagonal(row);
+        rows_.add(place_[a.columns()[k]], below ? a.mirror(k) : k, below);
+      }
+      rows_.endRow();
+    }
+    rows_.finish();
+  }
+
   void takeRightSide(const Points& b, double scale)
   {
-    residual_.resize(3 * b.size());
+    residual_.resize(3 * b.size() + 1);
     direction_.resize(residual_.size());
     image_.resize(residual_.size());
     solution_.assign(residual_.size(), Real(0));
@@ -130,27 +148,10 @@ class Conjugator
     }
   }
 
-  void loadRow(const BlockMatrix& a, Index place)
-  {
-    const Index row = nodes_[place];
-    Index* column = columns_.data() + offsets_[place];
-    Real* to = values_.data() + 9 * static_cast<std::size_t>(offsets_[place]);
-    for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k, ++column, to += 9)
-    {
-      *column = place_[a.columns()[k]];
-      const bool upper = k >= a.diagonal(row);
-      const double* from = a.block(upper ? k : a.mirror(k));
-      for (int i = 0; i < 9; ++i)
-      {
-        to[i] = static_cast<Real>(from[upper ? i : 3 * (i % 3) + i / 3]);
-      }
-    }
-  }
-
   LinearReport iterate(Index n, double tolerance, int most)
   {
     const PcgKernels<Real>& kernels = pcgKernels<Real>(instructionSet());
-    const BlockRows<Real> rows = {offsets_.data(), columns_.data(), values_.data()};
+    const BlockRows<Real> rows = rows_.view();
     Real* d = solution_.data();
     Real* r = residual_.data();
     Real* p = direction_.data();
@@ -243,11 +244,11 @@ class Conjugator
   }
 
   bool loaded_ = false;
-  std::vector<Index> nodes_, place_;  ///< the order, and each node's place in it
-  std::vector<Index> group_;          ///< by places
-  std::vector<Index> pieces_ = {0};   ///< of places: where each begins, and the end
-  std::vector<Index> offsets_, columns_;
-  std::vector<Real> values_;  ///< the matrix, both triangles
+  std::vector<Index> nodes_, place_;      ///< the order, and each node's place in it
+  std::vector<Index> group_;              ///< by places
+  std::vector<Index> pieces_ = {0};       ///< of places: where each begins, and the end
+  std::vector<Index> offsets_, columns_;  ///< the matrix's pattern that rows_ has
+  PackedRows<Real> rows_;
   CouplingRows<Real> couplings_;
   OuterRows<Real> outer_;
   std::vector<Real> inverse_;  ///< of its diagonal blocks

@@ -38,6 +38,47 @@ inline void storeTo(Real* p, const Vector& v)
   std::memcpy(p, &v, sizeof(Vector));
 }
 
+/** Puts three numbers of a node, and a fourth over the next one's first, whose turn comes. */
+template <typename Real>
+struct StoreWide
+{
+  void operator()(Real* p, const typename Wide<Real>::Four& v) const { storeTo(p, v); }
+};
+
+/** Puts three numbers: behind the last node is what others write. */
+template <typename Real>
+struct StoreLast
+{
+  void operator()(Real* p, const typename Wide<Real>::Four& v) const
+  {
+    p[0] = v[0];
+    p[1] = v[1];
+    p[2] = v[2];
+  }
+};
+
+/** Calls work(node, store) for nodes begin ... end - 1, with one of the two above. */
+template <typename Real, typename Work>
+inline void forNodes(Index begin, Index end, const Work& work)
+{
+  for (Index node = begin; node + 1 < end; ++node)
+  {
+    work(node, StoreWide<Real>());
+  }
+  if (begin < end)
+  {
+    work(end - 1, StoreLast<Real>());
+  }
+}
+
+/** a x b, whatever the fourth numbers are. */
+template <typename Four>
+inline Four cross(const Four& a, const Four& b)
+{
+  return __builtin_shufflevector(a, a, 1, 2, 0, 3) * __builtin_shufflevector(b, b, 2, 0, 1, 3) -
+         __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
+}
+
 /** Calls wide(i) for whole packs of the flat range of nodes, and narrow(i) for what is left. */
 template <typename Real, typename OnPack, typename OnNumber>
 inline void forFlat(Index begin, Index end, const OnPack& wide, const OnNumber& narrow)
@@ -79,46 +120,116 @@ inline double dotFlat(Index begin, Index end, const Real* a, const Real* b)
 }
 
 template <typename Real>
+void pack(const double* blocks, const Index* sources, Index begin, Index end, Real* values)
+{
+  using Four = typename Wide<Real>::Four;
+  using Doubles = Wide<double>::Four;
+  const Four zero = {};
+  for (Index slot = begin; slot < end; ++slot)
+  {
+    if (sources[slot] == kNoBlock)
+    {
+      continue;
+    }
+    const bool upright = sources[slot] >= 0;
+    const double* from = blocks + 9 * static_cast<long>(upright ? sources[slot] : ~sources[slot]);
+    Real* to = values + 24 * static_cast<long>(slot / 2) + 4 * (slot % 2);
+    const auto column = [&](int k) {
+      const Four v = __builtin_convertvector(loadAs<Doubles>(from + 3 * k), Four);
+      return __builtin_shufflevector(v, zero, 0, 1, 2, 4);
+    };
+    const Four a = column(0), b = column(1), c = column(2);
+    if (upright)
+    {
+      storeTo(to, a);
+      storeTo(to + 8, b);
+      storeTo(to + 16, c);
+    }
+    else
+    {
+      const Four low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+      const Four high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+      storeTo(to, __builtin_shufflevector(low, c, 0, 1, 4, 7));
+      storeTo(to + 8, __builtin_shufflevector(low, c, 2, 3, 5, 7));
+      storeTo(to + 16, __builtin_shufflevector(high, c, 0, 1, 6, 7));
+    }
+  }
+}
+
+template <typename Real>
 PcgSums precondition(Index begin, Index end, const Real* inverse, const Real* r, Real* z)
 {
   using Four = typename Wide<Real>::Four;
-  for (Index node = begin; node < end; ++node)
-  {
+  forNodes<Real>(begin, end, [&](Index node, auto store) {
     const Real* block = inverse + 9 * static_cast<long>(node);
     const Real* v = r + 3 * static_cast<long>(node);
     const Four sum = (loadAs<Four>(block) * v[0] + loadAs<Four>(block + 3) * v[1]) +
                      loadAs<Four>(block + 6) * v[2];
-    Real* to = z + 3 * static_cast<long>(node);
-    to[0] = sum[0];
-    to[1] = sum[1];
-    to[2] = sum[2];
-  }
+    store(z + 3 * static_cast<long>(node), sum);
+  });
   return {dotFlat(begin, end, r, r), dotFlat(begin, end, r, z)};
 }
+
+/** Sums of a row: one per column of the blocks, for the first and the second of the pairs. */
+template <typename Real>
+struct PairSums
+{
+  typename Wide<Real>::Four first[3] = {}, second[3] = {};
+
+  void add(const Real* pair, const Real* v, const Real* w)
+  {
+    using Four = typename Wide<Real>::Four;
+    for (int k = 0; k < 3; ++k)
+    {
+      first[k] += loadAs<Four>(pair + 8 * k) * v[k];
+      second[k] += loadAs<Four>(pair + 8 * k + 4) * w[k];
+    }
+  }
+
+  typename Wide<Real>::Four total() const
+  {
+    return ((first[0] + first[1]) + first[2]) + ((second[0] + second[1]) + second[2]);
+  }
+};
+
+#ifdef __AVX2__
+template <>
+struct PairSums<float>
+{
+  typedef float Eight __attribute__((vector_size(32)));
+  Eight sum0 = {}, sum1 = {}, sum2 = {};
+
+  void add(const float* pair, const float* v, const float* w)
+  {
+    using Four = Wide<float>::Four;
+    const Eight both = __builtin_shufflevector(loadAs<Four>(v), loadAs<Four>(w),  //
+                                               0, 1, 2, 3, 4, 5, 6, 7);
+    sum0 += loadAs<Eight>(pair) * __builtin_shufflevector(both, both, 0, 0, 0, 0, 4, 4, 4, 4);
+    sum1 += loadAs<Eight>(pair + 8) * __builtin_shufflevector(both, both, 1, 1, 1, 1, 5, 5, 5, 5);
+    sum2 += loadAs<Eight>(pair + 16) * __builtin_shufflevector(both, both, 2, 2, 2, 2, 6, 6, 6, 6);
+  }
+
+  Wide<float>::Four total() const
+  {
+    const Eight sum = (sum0 + sum1) + sum2;
+    return __builtin_shufflevector(sum, sum, 0, 1, 2, 3) +
+           __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
+  }
+};
+#endif
 
 template <typename Real>
 void multiplyRows(const BlockRows<Real>& a, Index begin, Index end, const Real* p, Real* q)
 {
-  using Four = typename Wide<Real>::Four;
-  for (Index row = begin; row < end; ++row)
-  {
-    // One running sum per column of the blocks; the fourth lane carries what the wide loads bring
-    // along.
-    Four sum0 = {}, sum1 = {}, sum2 = {};
-    const Real* block = a.values + 9 * static_cast<long>(a.offsets[row]);
-    for (Index k = a.offsets[row]; k < a.offsets[row + 1]; ++k, block += 9)
+  forNodes<Real>(begin, end, [&](Index row, auto store) {
+    PairSums<Real> sums;
+    for (Index k = a.offsets[row]; k < a.offsets[row + 1]; ++k)
     {
-      const Real* v = p + 3 * static_cast<long>(a.columns[k]);
-      sum0 += loadAs<Four>(block) * v[0];
-      sum1 += loadAs<Four>(block + 3) * v[1];
-      sum2 += loadAs<Four>(block + 6) * v[2];
+      sums.add(a.values + 24 * static_cast<long>(k), p + 3 * static_cast<long>(a.columns[2 * k]),
+               p + 3 * static_cast<long>(a.columns[2 * k + 1]));
     }
-    const Four sum = (sum0 + sum1) + sum2;
-    Real* to = q + 3 * static_cast<long>(row);
-    to[0] = sum[0];
-    to[1] = sum[1];
-    to[2] = sum[2];
-  }
+    store(q + 3 * static_cast<long>(row), sums.total());
+  });
 }
 
 template <typename Real>
@@ -159,20 +270,17 @@ void turn(Index begin, Index end, Real ratio, const Real* z, Real* p)
 template <typename Real>
 void gather(const NodeGroups<Real>& groups, Index begin, Index end, const Real* r, Real* c)
 {
+  using Four = typename Wide<Real>::Four;
   for (Index g = begin; g < end; ++g)
   {
-    Real sum[6] = {};
+    Four force = {}, moment = {};
     for (Index i = groups.offsets[g]; i < groups.offsets[g + 1]; ++i)
     {
-      const Real* v = r + 3 * static_cast<long>(i);
-      const Real* arm = groups.arms + 3 * static_cast<long>(i);
-      sum[0] += v[0];
-      sum[1] += v[1];
-      sum[2] += v[2];
-      sum[3] += arm[1] * v[2] - arm[2] * v[1];
-      sum[4] += arm[2] * v[0] - arm[0] * v[2];
-      sum[5] += arm[0] * v[1] - arm[1] * v[0];
+      const Four v = loadAs<Four>(r + 3 * static_cast<long>(i));
+      force += v;
+      moment += cross(loadAs<Four>(groups.arms + 3 * static_cast<long>(i)), v);
     }
+    const Real sum[6] = {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
     std::memcpy(c + 6 * g, sum, sizeof(sum));
   }
 }
@@ -212,23 +320,35 @@ void multiplyDense(Index size, Index begin, Index end, const Real* b, const Real
 template <typename Real>
 void spread(const NodeGroups<Real>& groups, Index begin, Index end, const Real* y, Real* z)
 {
-  for (Index node = begin; node < end; ++node)
+  using Four = typename Wide<Real>::Four;
+  if (begin == end)
   {
-    const Real* move = y + 6 * static_cast<long>(groups.group[node]);
-    const Real* arm = groups.arms + 3 * static_cast<long>(node);
-    Real* to = z + 3 * static_cast<long>(node);
-    to[0] += move[0] + (move[4] * arm[2] - move[5] * arm[1]);
-    to[1] += move[1] + (move[5] * arm[0] - move[3] * arm[2]);
-    to[2] += move[2] + (move[3] * arm[1] - move[4] * arm[0]);
+    return;
   }
+  const Real* first = z + 3 * static_cast<long>(begin);
+  Four here = {first[0], first[1], first[2]};
+  forNodes<Real>(begin, end, [&](Index node, auto store) {
+    const Real* move = y + 6 * static_cast<long>(groups.group[node]);
+    const Four turned =
+        cross(loadAs<Four>(move + 3), loadAs<Four>(groups.arms + 3 * static_cast<long>(node)));
+    const Four there = here + (loadAs<Four>(move) + turned);
+    Real* to = z + 3 * static_cast<long>(node);
+    if (node + 1 < end)
+    {
+      // Read before what is stored overlaps it, which would have to be waited for.
+      const Four behind = loadAs<Four>(to + 2);
+      here = __builtin_shufflevector(behind, behind, 1, 2, 3, 3);
+    }
+    store(to, there);
+  });
 }
 
 template <typename Real>
 const PcgKernels<Real>& pcgLoops()
 {
-  static const PcgKernels<Real> loops = {precondition<Real>,  multiply<Real>, multiplyRows<Real>,
-                                         advance<Real>,       turn<Real>,     gather<Real>,
-                                         multiplyDense<Real>, spread<Real>};
+  static const PcgKernels<Real> loops = {pack<Real>,         precondition<Real>,  multiply<Real>,
+                                         multiplyRows<Real>, advance<Real>,       turn<Real>,
+                                         gather<Real>,       multiplyDense<Real>, spread<Real>};
   return loops;
 }
 

@@ -1,18 +1,29 @@
 #pragma once
 
+#include <limits>
+
 #include "soft_tissue_sim/base/cpu.h"
 #include "soft_tissue_sim/base/index.h"
 
 namespace soft_tissue
 {
-/** A block matrix, both triangles, as plain arrays of float or double. */
+/**
+ * A block matrix, both triangles, as plain arrays of float or double: blocks of a row two by two,
+ * so that wide registers hold a column of both. Where a row has an odd number, its last one is
+ * zero.
+ */
 template <typename Real>
 struct BlockRows
 {
-  const Index* offsets;
-  const Index* columns;
-  const Real* values;  ///< 9 per block by columns, and one more readable number at the end
+  const Index* offsets;  ///< rows + 1: pairs of row i are offsets[i] ... offsets[i + 1] - 1
+  const Index* columns;  ///< 2 a pair
+  /** 24 a pair: for each of three columns that of the first block, a zero, that of the second, a
+   * zero. */
+  const Real* values;
 };
+
+/** Among the sources of PcgKernels::pack: a block of zeros. */
+constexpr Index kNoBlock = std::numeric_limits<Index>::min();
 
 /** What conjugate gradients sum up over nodes: |r|^2 and r . z. */
 struct PcgSums
@@ -39,11 +50,15 @@ struct NodeGroups
 
 /**
  * The passes of a conjugate-gradient iteration over nodes begin ... end - 1. Vectors are flat, 3
- * per node; `inverse` is the preconditioner, 9 per node by columns, and one more readable number.
+ * per node; `inverse` is the preconditioner, 9 per node by columns. All that is only read has one
+ * more readable number at its end.
  */
 template <typename Real>
 struct PcgKernels
 {
+  /** Values of columns begin ... end - 1 of BlockRows, which are zero where no block is: of source
+   * s the block s of those given, 9 numbers each by columns; of ~s its transpose. */
+  void (*pack)(const double* blocks, const Index* sources, Index begin, Index end, Real* values);
   /** z = D r and its sums. */
   PcgSums (*precondition)(Index begin, Index end, const Real* inverse, const Real* r, Real* z);
   /** q = A p; returns p . q. */

@@ -1,10 +1,10 @@
-#include "soft_tissue_sim/solver/pcg_kernels.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "soft_tissue_sim/solver/packed_rows.h"
 #include "support/block_matrices.h"
 #include "support/finite_difference.h"
 
@@ -14,9 +14,29 @@ namespace
 {
 using namespace test;
 
-BlockRows<double> rowsOf(const BlockMatrix& a)
+PackedRows<double> packed(const BlockMatrix& a)
 {
-  return {a.offsets().data(), a.columns().data(), a.values().data()};
+  PackedRows<double> rows;
+  for (Index row = 0; row < a.rows(); ++row)
+  {
+    for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
+    {
+      const bool below = k < a.diagonal(row);
+      rows.add(a.columns()[k], below ? a.mirror(k) : k, below);
+    }
+    rows.endRow();
+  }
+  rows.finish();
+  rows.load(pcgKernels<double>(instructionSet()), a.values().data(), 0, a.rows());
+  return rows;
+}
+
+/** Of nodes, with the number behind them that may be read, which is none. */
+std::vector<double> withOneMore(const Points& points)
+{
+  std::vector<double> numbers(flat(points).begin(), flat(points).end());
+  numbers.push_back(std::numeric_limits<double>::quiet_NaN());
+  return numbers;
 }
 
 std::vector<InstructionSet> instructionSets()
@@ -32,12 +52,13 @@ std::vector<InstructionSet> instructionSets()
 TEST(PcgProduct, IsTheDenseProduct)
 {
   const BlockMatrix a = randomPositiveMatrix(37, 60, 1);
+  const PackedRows<double> rows = packed(a);
   const Points x = randomPoints(37, 2);
   const Eigen::VectorXd expected = dense(a) * flat(x);
   for (const InstructionSet set : instructionSets())
   {
     Points y(37, Vec3::Constant(1e300));
-    pcgKernels<double>(set).multiply(rowsOf(a), 0, 37, x.data()->data(), y.data()->data());
+    pcgKernels<double>(set).multiply(rows.view(), 0, 37, withOneMore(x).data(), y.data()->data());
     EXPECT_LT((flat(y) - expected).norm(), 1e-14 * expected.norm()) << name(set);
   }
 }
@@ -45,14 +66,15 @@ TEST(PcgProduct, IsTheDenseProduct)
 TEST(PcgProduct, HasTheSameBitsOnEveryInstructionSet)
 {
   const BlockMatrix a = randomPositiveMatrix(101, 300, 3);
-  const Points x = randomPoints(101, 4);
+  const PackedRows<double> rows = packed(a);
+  const std::vector<double> x = withOneMore(randomPoints(101, 4));
   Points first(101);
   pcgKernels<double>(InstructionSet::baseline)
-      .multiply(rowsOf(a), 0, 101, x.data()->data(), first.data()->data());
+      .multiply(rows.view(), 0, 101, x.data(), first.data()->data());
   for (const InstructionSet set : instructionSets())
   {
     Points y(101);
-    pcgKernels<double>(set).multiply(rowsOf(a), 0, 101, x.data()->data(), y.data()->data());
+    pcgKernels<double>(set).multiply(rows.view(), 0, 101, x.data(), y.data()->data());
     EXPECT_EQ(y, first) << name(set);
   }
 }
@@ -60,12 +82,13 @@ TEST(PcgProduct, HasTheSameBitsOnEveryInstructionSet)
 TEST(PcgProduct, WritesItsRowsOnly)
 {
   const BlockMatrix a = randomPositiveMatrix(20, 30, 5);
+  const PackedRows<double> rows = packed(a);
   const Points x = randomPoints(20, 6);
   const Eigen::VectorXd expected = dense(a) * flat(x);
   for (const InstructionSet set : instructionSets())
   {
     Points y(20, Vec3::Constant(7.0));
-    pcgKernels<double>(set).multiply(rowsOf(a), 5, 12, x.data()->data(), y.data()->data());
+    pcgKernels<double>(set).multiply(rows.view(), 5, 12, withOneMore(x).data(), y.data()->data());
     for (Index i = 0; i < 20; ++i)
     {
       const Vec3 row = i >= 5 && i < 12 ? Vec3(expected.segment<3>(3 * i)) : Vec3::Constant(7.0);
@@ -74,26 +97,72 @@ TEST(PcgProduct, WritesItsRowsOnly)
   }
 }
 
-// The fourth lane of the wide loads holds the next block's numbers: none of it may leak.
+// Wide loads bring along what is not the block's, nor the row's: none of it may leak.
 TEST(PcgProduct, IsNotTouchedByWhatStandsBesideItsBlocks)
 {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
   BlockMatrix a = randomPositiveMatrix(8, 10, 7);
+  std::fill(a.values().begin() + 9 * static_cast<long>(a.columns().size()), a.values().end(), nan);
+  const PackedRows<double> rows = packed(a);
   const Points x = randomPoints(8, 8);
   const Eigen::VectorXd expected = dense(a) * flat(x);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  std::fill(a.values().begin() + 9 * static_cast<long>(a.columns().size()), a.values().end(), nan);
-  const Index last = a.offsets()[7];
+  std::fill_n(a.block(a.diagonal(7)), 9, nan);
+  const PackedRows<double> broken = packed(a);
   for (const InstructionSet set : instructionSets())
   {
     Points y(8);
-    pcgKernels<double>(set).multiply(rowsOf(a), 0, 8, x.data()->data(), y.data()->data());
-    EXPECT_LT((flat(y) - expected).norm(), 1e-14 * expected.norm()) << name(set);
-
-    BlockMatrix broken = a;
-    std::fill_n(broken.block(last), 9, nan);
-    pcgKernels<double>(set).multiply(rowsOf(broken), 0, 7, x.data()->data(), y.data()->data());
+    pcgKernels<double>(set).multiply(broken.view(), 0, 8, withOneMore(x).data(), y.data()->data());
     EXPECT_LT((flat(y).head(21) - expected.head(21)).norm(), 1e-14 * expected.norm()) << name(set);
+    EXPECT_TRUE(std::isnan(y[7].sum()));
+    pcgKernels<double>(set).multiply(rows.view(), 0, 8, withOneMore(x).data(), y.data()->data());
+    EXPECT_LT((flat(y) - expected).norm(), 1e-14 * expected.norm()) << name(set);
   }
+}
+
+/** Every block of the packed matrix, as it is multiplied by, with what is beside it. */
+template <typename Real>
+std::vector<Real> packedValues(InstructionSet set, const Points& blocks,
+                               const std::vector<Index>& sources)
+{
+  std::vector<Real> values(12 * sources.size(), Real(0));
+  const auto end = static_cast<Index>(sources.size()), cut = end / 2 / 2 * 2;
+  const PcgKernels<Real>& kernels = pcgKernels<Real>(set);
+  kernels.pack(withOneMore(blocks).data(), sources.data(), 0, cut, values.data());
+  kernels.pack(withOneMore(blocks).data(), sources.data(), cut, end, values.data());
+  return values;
+}
+
+template <typename Real>
+void expectPacked(const Points& blocks, const std::vector<Index>& sources)
+{
+  for (const InstructionSet set : instructionSets())
+  {
+    const std::vector<Real> values = packedValues<Real>(set, blocks, sources);
+    for (std::size_t slot = 0; slot < sources.size(); ++slot)
+    {
+      for (int column = 0; column < 3; ++column)
+      {
+        const Real* at = values.data() + 24 * (slot / 2) + 4 * (slot % 2) + 8 * column;
+        EXPECT_EQ(at[3], Real(0)) << name(set);
+        for (int row = 0; row < 3; ++row)
+        {
+          const Index source = sources[slot];
+          const double expected = source == kNoBlock ? 0.0
+                                  : source >= 0      ? blocks[3 * source + column][row]
+                                                     : blocks[3 * ~source + row][column];
+          EXPECT_EQ(at[row], static_cast<Real>(expected)) << name(set) << " column " << slot;
+        }
+      }
+    }
+  }
+}
+
+TEST(PcgProduct, PacksBlocksAndTransposesTwoByTwo)
+{
+  const Points blocks = randomPoints(3 * 4, 9);
+  const std::vector<Index> sources = {2, ~0, 3, kNoBlock, ~3, ~2, 0, 1};
+  expectPacked<double>(blocks, sources);
+  expectPacked<float>(blocks, sources);
 }
 
 /** Three groups of uneven size; the last nodes are in none. */
@@ -139,7 +208,7 @@ std::vector<double> runPasses(InstructionSet set)
   }
   const std::vector<Real> arms = numbers(kNodes, 3, 6), dense = numbers(18 * 18 / 3 + 1, 3, 7);
   const NodeGroups<Real> groups = {3, kGroups.data(), group.data(), arms.data()};
-  std::vector<Real> gathered(18), moved(24, Real(0)), spread = p;
+  std::vector<Real> gathered(18), moved(25, Real(0)), spread = p;
   kernels.gather(groups, 0, 2, r.data(), gathered.data());
   kernels.gather(groups, 2, 3, r.data(), gathered.data());
   kernels.multiplyDense(18, 0, 7, dense.data(), gathered.data(), moved.data());
