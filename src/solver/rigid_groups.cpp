@@ -14,8 +14,9 @@ namespace
 /** Nodes a group has at least, and the most groups: the coarse matrix has to stay small. */
 constexpr Index kNodesEach = 64;
 constexpr Index kMostGroups = 40;
-/** Share of its group's size a node may move before rigid motions are taken anew. */
-constexpr double kOutdated = 0.5;
+/** Share of its group's size a node may move beside the group's mean move, which changes no rigid
+ * motion, before these are taken anew. */
+constexpr double kOutdated = 0.3;
 /** Factor by which couplings may get stronger or weaker before. */
 constexpr double kOtherwise = 2.0;
 /** Share of the largest diagonal number added to all: nodes in a line have no moment of inertia. */
@@ -283,9 +284,15 @@ bool RigidGroups::outdated(const BlockMatrix& a, const Points& x) const
   for (int g = 0; g < size(); ++g)
   {
     const double far = kOutdated * evenness() * sizes_[g];
+    Vec3 move = Vec3::Zero();
     for (Index i = offsets_[g]; i < offsets_[g + 1]; ++i)
     {
-      if ((x[nodes_[i]] - built_at_[nodes_[i]]).squaredNorm() > far * far)
+      move += x[nodes_[i]] - built_at_[nodes_[i]];
+    }
+    move /= offsets_[g + 1] - offsets_[g];
+    for (Index i = offsets_[g]; i < offsets_[g + 1]; ++i)
+    {
+      if ((x[nodes_[i]] - built_at_[nodes_[i]] - move).squaredNorm() > far * far)
       {
         return true;
       }

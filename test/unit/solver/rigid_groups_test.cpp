@@ -274,5 +274,27 @@ TEST(RigidGroups, AreOutdatedByWhatIsFarFromWhereTheyWereBuilt)
   EXPECT_FALSE(groups.outdated(bar.matrix, x));
 }
 
+// Neither A nor its rigid motions change with a body that flies; they do with one that turns.
+TEST(RigidGroups, LastWhileTheirBodyFliesButNotWhileItTurns)
+{
+  const Bar bar;
+  RigidGroups groups;
+  groups.build(bar.matrix, bar.mesh.nodes);
+  const auto outdatedAt = [&](const Eigen::Isometry3d& pose) {
+    Points x = bar.mesh.nodes;
+    for (Vec3& p : x)
+    {
+      p = pose * p;
+    }
+    return groups.outdated(bar.matrix, x);
+  };
+  const auto turned = [](double angle) {
+    return Eigen::Isometry3d(Eigen::AngleAxisd(angle, Vec3(1.0, 2.0, -2.0) / 3.0));
+  };
+  EXPECT_FALSE(outdatedAt(Eigen::Isometry3d(Eigen::Translation3d(3.0, -2.0, 5.0))));
+  EXPECT_FALSE(outdatedAt(Eigen::Translation3d(1.0, 1.0, 1.0) * turned(0.1)));
+  EXPECT_TRUE(outdatedAt(turned(0.5)));
+}
+
 }  // namespace
 }  // namespace soft_tissue
