@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <deque>
 #include <fstream>
-#include <numeric>
 #include <optional>
 
 #include "plain_fem.h"
@@ -110,11 +109,6 @@ class Runner
   std::optional<Scene> scene_;
   Snapshot snapshot_;
 };
-
-double mean(const std::vector<double>& values)
-{
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 double farthest(const Points& a, const Points& b)
 {

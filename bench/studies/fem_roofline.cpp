@@ -179,8 +179,9 @@ void measureProduct(RooflineTable& table, const char* loop, const TetMesh& mesh,
   {
     throw Error("the product came out as zero");
   }
-  // Blocks, their columns, offsets, p and q; a product and a sum per number, and p . q.
-  table.add(loop, mesh, seconds, blocks * (9 * sizeof(Real) + 4) + rows * (4 + 6 * sizeof(Real)),
+  // Pairs of blocks, their columns, offsets, p and q; a product and a sum per number, and p . q.
+  const double pairs = a.offsets[matrix.rows()];
+  table.add(loop, mesh, seconds, pairs * (24 * sizeof(Real) + 8) + rows * (4 + 6 * sizeof(Real)),
             18.0 * blocks + 6.0 * rows, sizeof(Real) == sizeof(float));
 }
 }  // namespace

@@ -114,11 +114,11 @@ class SpeedError(unittest.TestCase):
 
             with open(os.path.join(folder, "fem_bullet.csv")) as stream:
                 rows = list(csv.DictReader(stream))
-            self.assertLessEqual({"scene", "converged"}, {row["engine"] for row in rows})
+            self.assertLessEqual({"scene", "scene 1e-2", "scene 1e-1", "converged"}, {row["engine"] for row in rows})
             for row in rows:  # falls freely yet, five steps of 10 ms: 15 g h^2
                 fall = -1.5 * float(row["gravity"])
                 self.assertAlmostEqual(float(row["tip_y_mm"]), fall, delta=-0.1 * fall, msg=row)
-                self.assertLess(float(row["farthest_off_mm"]), 0.1, row)
+                self.assertLess(float(row["farthest_off_mm"]), 0.3 if row["engine"] == "scene 1e-1" else 0.1, row)
 
             with open(os.path.join(folder, "fem_roofline.csv")) as stream:
                 rows = {row["loop"]: row for row in csv.DictReader(stream)}
