@@ -35,7 +35,7 @@ const char* nameOf(LinearSolverKind linear)
 FemTable::FemTable(const std::string& folder) : path_(folder + "/fem.csv"), stream_(path_)
 {
   stream_ << "case,method,element,law,linear,tolerance,tets,nodes,ms,found,error,converged,pareto,"
-             "default\n";
+             "pareto_of_mesh,default\n";
   check();
 }
 
@@ -53,17 +53,22 @@ void FemTable::finishCase(const std::string& name)
     const bool pareto = std::none_of(rows_.begin(), rows_.end(), [&](const Row& other) {
       return other.result.ms < result.ms && other.result.error < kBetter * result.error;
     });
+    const bool pareto_of_mesh = std::none_of(rows_.begin(), rows_.end(), [&](const Row& other) {
+      return other.choice.law == choice.law && other.result.tets == result.tets &&
+             other.result.ms < result.ms && kBetter * other.result.error < result.error;
+    });
     const TissueConfig tissue;
     const SolverConfig solver;
     const bool is_default = result.other.empty() && choice.element == tissue.element &&
                             choice.law == tissue.material.model && choice.linear == solver.linear &&
                             choice.tolerance == solver.tolerance;
     char line[300];
-    std::snprintf(line, sizeof(line), "%s,%s,%s,%s,%s,%g,%zu,%zu,%.4g,%.6g,%.4g,%d,%d,%d\n",
+    std::snprintf(line, sizeof(line), "%s,%s,%s,%s,%s,%g,%zu,%zu,%.4g,%.6g,%.4g,%d,%d,%d,%d\n",
                   name.c_str(), result.other.empty() ? "scene" : result.other.c_str(),
                   nameOf(choice.element), nameOf(choice.law), nameOf(choice.linear),
                   choice.tolerance, result.tets, result.nodes, result.ms, result.found,
-                  result.error, result.converged ? 1 : 0, pareto ? 1 : 0, is_default ? 1 : 0);
+                  result.error, result.converged ? 1 : 0, pareto ? 1 : 0, pareto_of_mesh ? 1 : 0,
+                  is_default ? 1 : 0);
     stream_ << line << std::flush;
     std::printf("fem %s", line);
   }

@@ -38,7 +38,8 @@ class FemTable
   void add(const FemChoice& choice, const FemResult& result);
 
   /** Writes and prints what was added since the last case, and marks what no other way beats both
-   * in time and in error, and the scene file's defaults. @throws Error if it can't be written */
+   * in time and in error, what none does with the same law on the same mesh, and the scene file's
+   * defaults. @throws Error if it can't be written */
   void finishCase(const std::string& name);
 
  private:

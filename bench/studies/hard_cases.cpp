@@ -64,10 +64,15 @@ void addMaterials(HardCatalogue& all)
   }
   for (const double ratio : {0.45, 0.4999})
   {
-    HardCase& one = all.addBar(labelled("nodal pressure, nu %g, let go bent", ratio));
-    body(one).element = ElementKind::tet4_anp;
-    body(one).material.poisson_ratio = ratio;
-    one.begin = bent;
+    for (const bool quadratic : {false, true})
+    {
+      HardCase& one = all.addBar(labelled(
+          quadratic ? "quadratic, nu %g, let go bent" : "nodal pressure, nu %g, let go bent",
+          ratio));
+      body(one).element = quadratic ? ElementKind::tet10 : ElementKind::tet4_anp;
+      body(one).material.poisson_ratio = ratio;
+      one.begin = bent;
+    }
   }
   for (const bool soft_foot : {true, false})
   {
@@ -121,6 +126,7 @@ void addRuins(HardCatalogue& all)
                            {"corotated, ", MaterialModel::corotated, ElementKind::tet4},
                            {"exponential, ", MaterialModel::exponential, ElementKind::tet4},
                            {"nodal pressure, ", MaterialModel::neo_hookean, ElementKind::tet4_anp},
+                           {"quadratic, ", MaterialModel::neo_hookean, ElementKind::tet10},
                            {"mass_spring, ", MaterialModel::mass_spring, ElementKind::tet4}})
   {
     const MaterialModel model = kind.model;
@@ -137,8 +143,8 @@ void addRuins(HardCatalogue& all)
     for (const Ruin& ruin : ruins)
     {
       HardCase& one = addRuin(ruin.name);
-      // Springs may keep a fold.
-      one.ending = model == MaterialModel::mass_spring ? Ending::settles : ruin.ending;
+      const bool folds = model == MaterialModel::mass_spring || kind.element == ElementKind::tet10;
+      one.ending = folds ? Ending::settles : ruin.ending;
       const auto place = ruin.place;
       one.begin = [place](Scene& scene) { deform(scene, place); };
     }

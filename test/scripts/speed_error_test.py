@@ -129,11 +129,13 @@ class SpeedError(unittest.TestCase):
             with open(os.path.join(folder, "fem.csv")) as stream:
                 rows = list(csv.DictReader(stream))
             self.assertEqual(list(rows[0]), ["case", "method", "element", "law", "linear", "tolerance", "tets", "nodes",
-                                             "ms", "found", "error", "converged", "pareto", "default"])
+                                             "ms", "found", "error", "converged", "pareto",
+                                             "pareto_of_mesh", "default"])
             self.assertEqual({row["converged"] for row in rows}, {"1"})
             for case in {row["case"] for row in rows}:
                 of_case = [row for row in rows if row["case"] == case]
                 self.assertIn("1", {row["default"] for row in of_case})
+                self.assertEqual({row["pareto_of_mesh"] for row in of_case if row["pareto"] == "1"}, {"1"})
                 fastest = min(of_case, key=lambda row: float(row["ms"]))
                 self.assertEqual(fastest["pareto"], "1")
                 if case == "heavy":
