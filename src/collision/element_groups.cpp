@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "box_kernels.h"
+
 namespace soft_tissue
 {
 namespace
@@ -40,33 +42,22 @@ void ElementGroups::place(const Vec3* x, double margin)
   x_ = x;
   margin_ = margin;
   ++call_;
-  const bool moving = !x_at_refit_.empty();
-  Vec3 low = Vec3::Constant(kInfinity), high = -low, least = low, most = high, sum = Vec3::Zero();
-  for (std::size_t i = 0; i < used_nodes_.size(); ++i)
-  {
-    const Vec3& p = x[used_nodes_[i]];
-    sum += p;
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-    if (moving)
-    {
-      const Vec3 move = p - x_at_refit_[i];
-      least = least.cwiseMin(move);
-      most = most.cwiseMax(move);
-    }
-  }
-  all_finite_ = sum.allFinite();  // also false where finite ones add up to too much: no harm
+  const NodeExtremes now =
+      boxKernels(instructionSet())
+          .extremes(x, used_nodes_.data(), x_at_refit_.empty() ? nullptr : x_at_refit_.data(),
+                    static_cast<Index>(used_nodes_.size()));
+  all_finite_ = now.finite;
   if (!all_finite_)
   {
     placeFiniteNodes();
     return;
   }
-  bounds_ = endsOf(low, high);
+  bounds_ = endsOf(now.low, now.high);
   for (double& end : bounds_.v)
   {
     end -= margin;
   }
-  drift_ = endsOf(least, most);
+  drift_ = endsOf(now.least_move, now.most_move);
 }
 
 // What is no number would spoil least and greatest values.

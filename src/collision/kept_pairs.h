@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "soft_tissue_sim/collision/box_ends.h"
-#include "soft_tissue_sim/collision/pair_finder.h"
+#include "box_kernels.h"
 
 namespace soft_tissue
 {
@@ -22,14 +21,8 @@ class KeptPairs
               std::vector<ElementPair>& pairs);
 
  private:
-  struct Kept
-  {
-    ElementPair pair;
-    Index box;  ///< of its first element
-  };
-
   ElementSet first_, second_;
-  std::vector<Kept> kept_;
+  std::vector<BoxedPair> kept_;
   std::vector<Index> firsts_;    ///< the first elements, once each
   std::vector<BoxEnds> boxes_;   ///< theirs
   std::vector<Index> place_of_;  ///< per element of the first set, in firsts_; -1 between calls

@@ -14,29 +14,21 @@ void SegmentFilter::clear()
 void SegmentFilter::setTet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
   origin_ = a;
-  const Vec3* const others[] = {&b, &c, &d};
-  for (int k = 0; k < 3; ++k)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      corners_[k][axis] = static_cast<float>((*others[k])[axis] - a[axis]);
-    }
-  }
+  setPoint(corners_[0], b);
+  setPoint(corners_[1], c);
+  setPoint(corners_[2], d);
 }
 
 void SegmentFilter::sift()
 {
-  Meeting meetings[kMeetingLanes];
-  if (count_ > 0)
+  if (count_ == 0)
   {
-    kernels_->segments(lanes_, meetings);
+    return;
   }
-  for (int i = 0; i < count_; ++i)
+  const unsigned used = (1u << count_) - 1u;
+  for (unsigned bits = used & ~kernels_->segments(lanes_); bits != 0; bits &= bits - 1)
   {
-    if (meetings[i] != Meeting::apart)
-    {
-      left_.push_back(numbers_[i]);
-    }
+    left_.push_back(numbers_[__builtin_ctz(bits)]);
   }
   count_ = 0;
 }

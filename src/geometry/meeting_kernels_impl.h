@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstring>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
 #include "soft_tissue_sim/geometry/meeting_kernels.h"
 
@@ -46,6 +49,25 @@ inline Point load(const float (&p)[3][kMeetingLanes])
   std::memcpy(&point.y, p[1], sizeof(Eight));
   std::memcpy(&point.z, p[2], sizeof(Eight));
   return point;
+}
+/** The same from points side by side. */
+inline Point load(const float (&p)[kMeetingLanes][4])
+{
+  typedef float Four __attribute__((vector_size(16)));
+  const auto two = [&](int k) {
+    Four low, high;
+    std::memcpy(&low, p[k], sizeof(low));
+    std::memcpy(&high, p[k + 4], sizeof(high));
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  };
+  const Eight a = two(0), b = two(1), c = two(2), d = two(3);
+  const Eight ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Eight cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Eight ab_z = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+  const Eight cd_z = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+  return {__builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15),
+          __builtin_shufflevector(ab_z, cd_z, 0, 1, 8, 9, 4, 5, 12, 13)};
 }
 inline Point operator-(const Point& a, const Point& b)
 {
@@ -211,7 +233,21 @@ inline void tellTets(const TetPairLanes& lanes, Meeting* meetings)
   tell(apart & (reach < kMost), together, meetings);
 }
 
-inline void tellSegments(const TetSegmentLanes& lanes, Meeting* meetings)
+inline unsigned bitsOf(const Masks& masks)
+{
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<const __m256&>(masks)));
+#else
+  unsigned bits = 0;
+  for (int i = 0; i < kMeetingLanes; ++i)
+  {
+    bits |= masks[i] != 0 ? 1u << i : 0u;
+  }
+  return bits;
+#endif
+}
+
+inline unsigned tellSegments(const TetSegmentLanes& lanes)
 {
   const Point corners[3] = {load(lanes.tet[0]), load(lanes.tet[1]), load(lanes.tet[2])};
   const Point ends[2] = {load(lanes.ends[0]), load(lanes.ends[1])};
@@ -230,7 +266,7 @@ inline void tellSegments(const TetSegmentLanes& lanes, Meeting* meetings)
   weights.of(ends[1], q);
   const Eight reach = larger(size.value(), extent.value());
   const Eight tolerance = kRounding * size.value() * size.value() * reach + kLeast;
-  tell((Lines(p, q).highest < -tolerance) & (reach < kMost), Masks{}, meetings);
+  return bitsOf((Lines(p, q).highest < -tolerance) & (reach < kMost));
 }
 
 const MeetingKernels& meetings()

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstring>
 #include <vector>
 
 #include "soft_tissue_sim/base/types.h"
@@ -22,14 +24,11 @@ class SegmentFilter
   /** A segment, which may be a point, m, by any number. */
   void add(Index number, const Vec3& a, const Vec3& b)
   {
-    setPoint(lanes_.ends[0], a);
-    setPoint(lanes_.ends[1], b);
+    setPoint(lanes_.ends[0][count_], a);
+    setPoint(lanes_.ends[1][count_], b);
     for (int k = 0; k < 3; ++k)
     {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        lanes_.tet[k][axis][count_] = corners_[k][axis];
-      }
+      std::memcpy(lanes_.tet[k][count_], corners_[k], sizeof(corners_[k]));
     }
     numbers_[count_++] = number;
     if (count_ == kMeetingLanes)
@@ -45,18 +44,18 @@ class SegmentFilter
   }
 
  private:
-  void setPoint(float (&lanes)[3][kMeetingLanes], const Vec3& p)
+  void setPoint(float (&place)[4], const Vec3& p) const
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      lanes[axis][count_] = static_cast<float>(p[axis] - origin_[axis]);
+      place[axis] = static_cast<float>(p[axis] - origin_[axis]);
     }
   }
   void sift();
 
   const MeetingKernels* kernels_;
   Vec3 origin_;  ///< first corner of the tet
-  std::array<std::array<float, 3>, 3> corners_ = {};
+  float corners_[3][4] = {};
   TetSegmentLanes lanes_ = {};
   std::array<Index, kMeetingLanes> numbers_ = {};
   int count_ = 0;  ///< lanes in use

@@ -16,11 +16,12 @@ struct TetPairLanes
   alignas(32) float b[4][3][kMeetingLanes];  ///< corners of the second
 };
 
-/** Eight pairs of a tet and a segment, in single precision, as seen from the tet's first corner. */
+/** Eight pairs of a tet and a segment, in single precision, as seen from the tet's first corner:
+ * points as they come, each with a fourth number that does not count. */
 struct TetSegmentLanes
 {
-  alignas(32) float tet[3][3][kMeetingLanes];   ///< corners 1 to 3: [corner][axis]
-  alignas(32) float ends[2][3][kMeetingLanes];  ///< of the segment
+  alignas(32) float tet[3][kMeetingLanes][4];   ///< corners 1 to 3: [corner][pair][axis]
+  alignas(32) float ends[2][kMeetingLanes][4];  ///< of the segment
 };
 
 /** What single precision can tell. What it can't, be it that numbers are no numbers, is unclear. */
@@ -37,8 +38,8 @@ struct MeetingKernels
   /** Separating planes: faces of either tet, and planes through edges of the first.
    * Source: [Ganovelli2002] edges by the heights over the faces beside them. */
   void (*tets)(const TetPairLanes& lanes, Meeting* meetings);
-  /** Clips; never says together. */
-  void (*segments)(const TetSegmentLanes& lanes, Meeting* meetings);
+  /** Clips. @return bit i: pair i is apart, see Meeting */
+  unsigned (*segments)(const TetSegmentLanes& lanes);
 };
 
 /** The kernels for this machine. */
