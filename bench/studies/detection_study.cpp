@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <numeric>
+#include <random>
 
 #include "bullet_tets.h"
 #include "detection_scene.h"
@@ -67,8 +68,9 @@ class Contest
     for (int turn = -2; turn < turns; ++turn)  // the first ones prepare
     {
       scene_.move(turn);
-      for (Contestant& one : contestants_)
+      for (Contestant* const contestant : inAnyOrder())
       {
+        Contestant& one = *contestant;
         Timer timer;
         one.found = one.find();
         const double find_ms = 1e3 * timer.seconds();
@@ -178,10 +180,23 @@ class Contest
     }
   }
 
+  /** What a way finds in caches is up to those before it. */
+  std::vector<Contestant*> inAnyOrder()
+  {
+    std::vector<Contestant*> order;
+    for (Contestant& one : contestants_)
+    {
+      order.push_back(&one);
+    }
+    std::shuffle(order.begin(), order.end(), random_);
+    return order;
+  }
+
   void add(Contestant contestant) { contestants_.push_back(std::move(contestant)); }
 
   DetectionScene& scene_;
   std::vector<Contestant> contestants_;
+  std::mt19937 random_;
 };
 
 class DetectionTable
