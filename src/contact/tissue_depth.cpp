@@ -41,6 +41,10 @@ constexpr double kStale = 0.1;
 constexpr double kFarthestTravel = 1.0;
 /** How much farther than the nearest triangle those in lists are, in short edges. */
 constexpr double kListed = 0.25;
+/** How far a place of self-contact may slide, at rest, before it is searched for anew, in short
+ * edges; and with rounding. */
+constexpr double kSlid = 0.05;
+constexpr double kRoundedUp = 1.0 + 1e-9;
 /** Of a list's radius: rounding of what is compared with it. */
 constexpr double kRounding = 1e-9;
 /** Of coordinates: rounding where they are shifted. */
@@ -87,55 +91,6 @@ int nearestCorner(const Vec3& p, const Tet& tet, const Points& x)
   return nearest;
 }
 
-/** Depth linear in a tet that keeps its nodal depths: it bends as the tet is deformed. */
-DepthCurvature interpolatedCurvature(const std::array<Vec3, 4>& corners)
-{
-  DepthCurvature curvature;
-  curvature.distance = false;
-  const auto coords = tetCoordinates(corners[0], corners[1], corners[2], corners[3]);
-  for (int k = 0; k < 4 && coords; ++k)
-  {
-    curvature.turn[k] = coords->gradients.col(k);
-  }
-  return curvature;
-}
-
-/** Distance to the part of a triangle where the weights of the nearest point are not zero. */
-DepthCurvature featureCurvature(const std::array<Vec3, 4>& corners, const ContactSample& sample)
-{
-  std::array<int, 3> on;
-  int count = 0;
-  for (int k = 0; k < 3; ++k)
-  {
-    if (sample.coefficient[k] != 0.0)
-    {
-      on[count++] = k;
-    }
-  }
-  DepthCurvature curvature;
-  const Vec3& g = sample.gradient;
-  if (count == 3)
-  {
-    const Vec3 normal =
-        (corners[1] - corners[0]).cross(Vec3(corners[2] - corners[0]));  // twice the area long
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vec3 opposite = corners[(k + 2) % 3] - corners[(k + 1) % 3];
-      curvature.turn[k] = normal.cross(opposite) / normal.squaredNorm();
-    }
-    return curvature;
-  }
-  curvature.bend = Mat3::Identity() - g * g.transpose();
-  if (count == 2)
-  {
-    const Vec3 along = corners[on[1]] - corners[on[0]];
-    const double squared = along.squaredNorm();
-    curvature.bend -= along * along.transpose() / squared;
-    curvature.turn[on[1]] = along / squared;
-    curvature.turn[on[0]] = -curvature.turn[on[1]];
-  }
-  return curvature;
-}
 }  // namespace
 
 TissueDepth::TissueDepth(const TissueBody& tissue, bool closest_feature)
@@ -226,15 +181,13 @@ bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coord
   TriangleTree::Nearest found = onOwnTriangle(p, tet, x, any);
   if (found.triangle < 0)
   {
-    found = listed(p, x, near);
+    found = listed(p, x, near, any);
   }
   if (found.triangle < 0)
   {
     const Index hint = hintFor(p, tet, x, field, near.hint);
     found = tree_.shortlist(p, x, hint, motion_, kListed * tissue_.short_edge, near.list);
-    near.place = p - travel_.shift;
-    near.travelled = travel_.most;
-    near.travel = travel_.number;
+    remember(p, near);
   }
   near.hint = found.triangle;
   return takeFeature(p, found, x, sample);
@@ -257,29 +210,45 @@ bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& c
   }
   const Vec3 apart = rest_of - place;
   const double halfway = 0.5 * apart.dot(rest_of + place);
-  const auto onThisSide = [&](Index i) {
+  const auto centre = [&](Index i) {
     const Triangle& t = tissue_.surface->triangles[i];
-    return apart.dot(rest[t[0]] + rest[t[1]] + rest[t[2]]) / 3.0 <= halfway;
+    return Vec3((rest[t[0]] + rest[t[1]] + rest[t[2]]) / 3.0);
   };
+  const auto onThisSide = [&](Index i) { return apart.dot(centre(i)) <= halfway; };
   sample.position = p;
   TriangleTree::Nearest found = onOwnTriangle(p, tet, x, onThisSide);
+  const double slid = kSlid * tissue_.short_edge;
+  if (found.triangle < 0 &&
+      (rest_of - near.rest_point).norm() + (place - near.rest_place).norm() <= slid)
+  {
+    found = listed(p, x, near, onThisSide);
+  }
   if (found.triangle < 0)
   {
+    // What may be on this side when both have slid by no more than that.
+    const Vec3 middle = 0.5 * (rest_of + place);
+    const auto mayBe = [&](Index i) {
+      const Vec3 from_middle = centre(i) - middle;
+      const double turn = slid * (from_middle.norm() + 0.5 * (apart.norm() + slid));
+      return onThisSide(i) || apart.dot(from_middle) <= kRoundedUp * turn;
+    };
     const Index hint = hintFor(p, tet, x, field, near.hint);
-    found = tree_.nearestOf(p, x, hint, motion_, onThisSide);
+    found = tree_.shortlistOf(p, x, hint, motion_, onThisSide, mayBe, kListed * tissue_.short_edge,
+                              near.list);
+    remember(p, near);
+    near.rest_point = rest_of;
+    near.rest_place = place;
   }
   near.hint = found.triangle;
   return takeFeature(p, found, x, sample);
 }
 
-DepthCurvature TissueDepth::curvature(const ContactSample& sample, const Points& x) const
+/** That the list was made now. */
+void TissueDepth::remember(const Vec3& p, NearBoundary& near) const
 {
-  std::array<Vec3, 4> corners;
-  for (int k = 0; k < (closest_feature_ ? 3 : 4); ++k)
-  {
-    corners[k] = x[sample.node[k] - tissue_.first_node];
-  }
-  return closest_feature_ ? featureCurvature(corners, sample) : interpolatedCurvature(corners);
+  near.place = p - travel_.shift;
+  near.travelled = travel_.most;
+  near.travel = travel_.number;
 }
 
 bool TissueDepth::interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,
@@ -320,9 +289,10 @@ TriangleTree::Nearest TissueDepth::onOwnTriangle(const Vec3& p, Index tet, const
   return found;
 }
 
-/** The nearest one, if what was listed before still tells. */
-TriangleTree::Nearest TissueDepth::listed(const Vec3& p, const Points& x,
-                                          const NearBoundary& near) const
+/** The nearest one that is allowed, if what was listed before still tells. */
+template <typename Allowed>
+TriangleTree::Nearest TissueDepth::listed(const Vec3& p, const Points& x, const NearBoundary& near,
+                                          const Allowed& allowed) const
 {
   TriangleTree::Nearest found;
   if (near.travel != travel_.number)
@@ -337,8 +307,11 @@ TriangleTree::Nearest TissueDepth::listed(const Vec3& p, const Points& x,
   for (int i = 0; i < list.size() && least(list.distance(i)) <= distance; ++i)
   {
     const Triangle& t = tissue_.surface->triangles[list[i]];
-    found.take(list[i], closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]));
-    distance = std::sqrt(found.point.squared_distance);
+    if (allowed(list[i]))
+    {
+      found.take(list[i], closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]));
+      distance = std::sqrt(found.point.squared_distance);
+    }
   }
   return distance < least(list.radius()) ? found : TriangleTree::Nearest();
 }

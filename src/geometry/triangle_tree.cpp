@@ -227,18 +227,6 @@ Box3 TriangleTree::bounds() const
   return box;
 }
 
-TriangleTree::Nearest TriangleTree::shortlist(const Vec3& p, const Points& x, Index hint,
-                                              const NodeMotion& motion, double slack,
-                                              Shortlist& list) const
-{
-  list = Shortlist();
-  const auto any = [](Index) { return true; };
-  Search<decltype(any)> search{p, x, *triangles_, motion.rest, any, slack, &list};
-  find(p - motion.shift, hint, search);
-  list.shrink(std::sqrt(search.found.point.squared_distance) + slack);
-  return search.found;
-}
-
 void TriangleTree::search(const Vec3& p, double bound, VisitTriangle visit, void* context) const
 {
   if (!nodes_.empty() && p.allFinite())

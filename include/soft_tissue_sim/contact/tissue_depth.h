@@ -19,6 +19,8 @@ struct NearBoundary
   Vec3 place = Vec3::Zero();  ///< of the point then, m
   double travelled = 0.0;     ///< TissueDepth::Travel then
   std::uint32_t travel = 0;
+  /** In self-contact, at rest: the point, and the place in the tet that it had come to, m. */
+  Vec3 rest_point = Vec3::Zero(), rest_place = Vec3::Zero();
 };
 
 /**
@@ -76,7 +78,10 @@ class TissueDepth
   template <typename Allowed>
   TriangleTree::Nearest onOwnTriangle(const Vec3& p, Index tet, const Points& x,
                                       const Allowed& allowed) const;
-  TriangleTree::Nearest listed(const Vec3& p, const Points& x, const NearBoundary& near) const;
+  template <typename Allowed>
+  TriangleTree::Nearest listed(const Vec3& p, const Points& x, const NearBoundary& near,
+                               const Allowed& allowed) const;
+  void remember(const Vec3& p, NearBoundary& near) const;
   Index hintFor(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
                 Index hint) const;
   bool takeFeature(const Vec3& p, const TriangleTree::Nearest& found, const Points& x,

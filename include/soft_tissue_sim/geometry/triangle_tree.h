@@ -86,13 +86,27 @@ class TriangleTree
    * is in the list.
    */
   Nearest shortlist(const Vec3& p, const Points& x, Index hint, const NodeMotion& motion,
-                    double slack, Shortlist& list) const;
+                    double slack, Shortlist& list) const
+  {
+    const auto any = [](Index) { return true; };
+    return shortlistOf(p, x, hint, motion, any, any, slack, list);
+  }
+
+  /** The nearest of those that are allowed; the list has all that may be listed, which are those
+   * and others. */
+  template <typename Allowed, typename Listed>
+  Nearest shortlistOf(const Vec3& p, const Points& x, Index hint, const NodeMotion& motion,
+                      const Allowed& allowed, const Listed& listed, double slack,
+                      Shortlist& list) const;
 
  private:
+  struct Reach;
   template <typename Allowed>
   struct Search;
-  template <typename Allowed>
-  void find(const Vec3& in_tree, Index hint, Search<Allowed>& search) const;
+  template <typename Allowed, typename Listed>
+  struct ListingSearch;
+  template <typename AnySearch>
+  void find(const Vec3& in_tree, Index hint, AnySearch& search) const;
   void search(const Vec3& p, double bound, VisitTriangle visit, void* context) const;
   struct Range
   {
@@ -111,39 +125,21 @@ class TriangleTree
   double slack_ = 0.0;                   ///< rounding of a distance to a plane, m
 };
 
-template <typename Allowed>
-struct TriangleTree::Search
+/** Where a search is, and how far it goes. */
+struct TriangleTree::Reach
 {
   const Vec3& p;
   const Points& x;
   const std::vector<Triangle>& triangles;
-  double moved;
-  const Allowed& allowed;
-  double slack = 0.0;         ///< how much farther than the nearest one is looked, m
-  Shortlist* list = nullptr;  ///< takes what was looked at, if any
-  Index hint = -1;            ///< looked at already
+  double farther;   ///< than the nearest one so far what is looked at may seem in the tree, m
+  Index hint = -1;  ///< looked at already
   Nearest found = Nearest();
 
-  double visit(Index triangle)
-  {
-    if (triangle == hint || !allowed(triangle))
-    {
-      return limit();
-    }
-    look(triangle);
-    return limit();
-  }
-
-  void look(Index triangle)
+  TrianglePoint closest(Index triangle)
   {
     ++found.evaluations;
     const Triangle& t = triangles[triangle];
-    const TrianglePoint point = closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]);
-    if (list != nullptr)
-    {
-      list->add(triangle, std::sqrt(point.squared_distance));
-    }
-    found.take(triangle, point);
+    return closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]);
   }
 
   /** What the square of another triangle's distance in the tree must not be above. */
@@ -151,9 +147,36 @@ struct TriangleTree::Search
   {
     constexpr double kRounding = 1e-13;  // of squared distances, as a share
     const double squared = found.point.squared_distance;
-    const double farther = moved + slack;
     const double in_tree = farther > 0.0 ? std::sqrt(squared) + farther : 0.0;
     return (1.0 + kRounding) * (farther > 0.0 ? in_tree * in_tree : squared);
+  }
+};
+
+template <typename Allowed>
+struct TriangleTree::Search : Reach
+{
+  const Allowed& allowed;
+
+  bool counts(Index triangle) const { return allowed(triangle); }
+  void look(Index triangle) { found.take(triangle, closest(triangle)); }
+};
+
+template <typename Allowed, typename Listed>
+struct TriangleTree::ListingSearch : Reach
+{
+  const Allowed& allowed;
+  const Listed& listed;
+  Shortlist& list;
+
+  bool counts(Index triangle) const { return listed(triangle); }
+  void look(Index triangle)
+  {
+    const TrianglePoint point = closest(triangle);
+    list.add(triangle, std::sqrt(point.squared_distance));
+    if (allowed(triangle))
+    {
+      found.take(triangle, point);
+    }
   }
 };
 
@@ -162,15 +185,29 @@ TriangleTree::Nearest TriangleTree::nearestOf(const Vec3& p, const Points& x, In
                                               const NodeMotion& motion,
                                               const Allowed& allowed) const
 {
-  Search<Allowed> search{p, x, *triangles_, motion.rest, allowed};
+  Search<Allowed> search{{p, x, *triangles_, motion.rest}, allowed};
   find(p - motion.shift, hint, search);
   return search.found;
 }
 
-template <typename Allowed>
-void TriangleTree::find(const Vec3& in_tree, Index hint, Search<Allowed>& search) const
+template <typename Allowed, typename Listed>
+TriangleTree::Nearest TriangleTree::shortlistOf(const Vec3& p, const Points& x, Index hint,
+                                                const NodeMotion& motion, const Allowed& allowed,
+                                                const Listed& listed, double slack,
+                                                Shortlist& list) const
 {
-  if (hint >= 0 && search.allowed(hint))
+  list = Shortlist();
+  ListingSearch<Allowed, Listed> search{
+      {p, x, *triangles_, motion.rest + slack}, allowed, listed, list};
+  find(p - motion.shift, hint, search);
+  list.shrink(std::sqrt(search.found.point.squared_distance) + slack);
+  return search.found;
+}
+
+template <typename AnySearch>
+void TriangleTree::find(const Vec3& in_tree, Index hint, AnySearch& search) const
+{
+  if (hint >= 0 && search.counts(hint))
   {
     search.look(hint);
     search.hint = hint;
@@ -178,7 +215,12 @@ void TriangleTree::find(const Vec3& in_tree, Index hint, Search<Allowed>& search
   this->search(
       in_tree, search.limit(),
       [](void* context, Index triangle) {
-        return static_cast<Search<Allowed>*>(context)->visit(triangle);
+        AnySearch& one = *static_cast<AnySearch*>(context);
+        if (triangle != one.hint && one.counts(triangle))
+        {
+          one.look(triangle);
+        }
+        return one.limit();
       },
       &search);
 }
