@@ -130,7 +130,7 @@ struct TriangleTree::Reach
 {
   const Vec3& p;
   const Points& x;
-  const std::vector<Triangle>& triangles;
+  const std::vector<Triangle>* triangles;  ///< none of an empty tree
   double farther;   ///< than the nearest one so far what is looked at may seem in the tree, m
   Index hint = -1;  ///< looked at already
   Nearest found = Nearest();
@@ -138,7 +138,7 @@ struct TriangleTree::Reach
   TrianglePoint closest(Index triangle)
   {
     ++found.evaluations;
-    const Triangle& t = triangles[triangle];
+    const Triangle& t = (*triangles)[triangle];
     return closestOnTriangle(p, x[t[0]], x[t[1]], x[t[2]]);
   }
 
@@ -185,7 +185,7 @@ TriangleTree::Nearest TriangleTree::nearestOf(const Vec3& p, const Points& x, In
                                               const NodeMotion& motion,
                                               const Allowed& allowed) const
 {
-  Search<Allowed> search{{p, x, *triangles_, motion.rest}, allowed};
+  Search<Allowed> search{{p, x, triangles_, motion.rest}, allowed};
   find(p - motion.shift, hint, search);
   return search.found;
 }
@@ -198,7 +198,7 @@ TriangleTree::Nearest TriangleTree::shortlistOf(const Vec3& p, const Points& x, 
 {
   list = Shortlist();
   ListingSearch<Allowed, Listed> search{
-      {p, x, *triangles_, motion.rest + slack}, allowed, listed, list};
+      {p, x, triangles_, motion.rest + slack}, allowed, listed, list};
   find(p - motion.shift, hint, search);
   list.shrink(std::sqrt(search.found.point.squared_distance) + slack);
   return search.found;
