@@ -16,7 +16,7 @@ constexpr Index kNodesEach = 64;
 constexpr Index kMostGroups = 40;
 /** Share of its group's size a node may move beside the group's mean move, which changes no rigid
  * motion, before these are taken anew. */
-constexpr double kOutdated = 0.3;
+constexpr double kOutdated = 0.25;
 /** Factor by which couplings may get stronger or weaker before. */
 constexpr double kOtherwise = 2.0;
 /** Share of the largest diagonal number added to all: nodes in a line have no moment of inertia. */
