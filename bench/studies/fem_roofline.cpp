@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <numeric>
 
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/base/parallel.h"
@@ -157,16 +158,10 @@ void measureProduct(RooflineTable& table, const char* loop, const TetMesh& mesh,
   const double blocks = static_cast<double>(matrix.columns().size());
   const double rows = matrix.rows();
   const PcgKernels<Real>& kernels = pcgKernels<Real>(instructionSet());
+  std::vector<Index> order(matrix.rows());
+  std::iota(order.begin(), order.end(), 0);
   PackedRows<Real> packed;
-  for (Index row = 0; row < matrix.rows(); ++row)
-  {
-    for (Index k = matrix.offsets()[row]; k < matrix.offsets()[row + 1]; ++k)
-    {
-      packed.add(matrix.columns()[k], k, false);
-    }
-    packed.endRow();
-  }
-  packed.finish();
+  packed.takePattern(matrix, order, order);
   const std::vector<double> values(matrix.values().size(), 0.5);
   packed.load(kernels, values.data(), 0, matrix.rows());
   const BlockRows<Real> a = packed.view();

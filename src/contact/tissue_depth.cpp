@@ -42,10 +42,9 @@ constexpr double kFarthestTravel = 1.0;
 /** How much farther than the nearest triangle those in lists are, in short edges. */
 constexpr double kListed = 0.25;
 /** How far a place of self-contact may slide, at rest, before it is searched for anew, in short
- * edges; and with rounding. */
+ * edges. */
 constexpr double kSlid = 0.05;
-constexpr double kRoundedUp = 1.0 + 1e-9;
-/** Of a list's radius: rounding of what is compared with it. */
+/** Of a list's radius, or of a bound: rounding of what is compared with it. */
 constexpr double kRounding = 1e-9;
 /** Of coordinates: rounding where they are shifted. */
 constexpr double kShiftRounding = 1e-14;
@@ -230,7 +229,7 @@ bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& c
     const auto mayBe = [&](Index i) {
       const Vec3 from_middle = centre(i) - middle;
       const double turn = slid * (from_middle.norm() + 0.5 * (apart.norm() + slid));
-      return onThisSide(i) || apart.dot(from_middle) <= kRoundedUp * turn;
+      return onThisSide(i) || apart.dot(from_middle) <= (1.0 + kRounding) * turn;
     };
     const Index hint = hintFor(p, tet, x, field, near.hint);
     found = tree_.shortlistOf(p, x, hint, motion_, onThisSide, mayBe, kListed * tissue_.short_edge,

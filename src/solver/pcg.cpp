@@ -97,7 +97,9 @@ class Conjugator
     outer_.load(a.outer(), place_);
     if (offsets_ != a.offsets() || columns_ != a.columns())
     {
-      takePattern(a);
+      offsets_ = a.offsets();
+      columns_ = a.columns();
+      rows_.takePattern(a, nodes_, place_);
     }
     inverse_.resize(9 * static_cast<std::size_t>(a.rows()) + 1);
     parallelFor(pieceCount(), 1, [&](Index begin, Index end) {
@@ -114,23 +116,6 @@ class Conjugator
         }
       }
     });
-  }
-
-  void takePattern(const BlockMatrix& a)
-  {
-    offsets_ = a.offsets();
-    columns_ = a.columns();
-    rows_.clear();
-    for (const Index row : nodes_)
-    {
-      for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
-      {
-        const bool below = k < a.diagonal(row);
-        rows_.add(place_[a.columns()[k]], below ? a.mirror(k) : k, below);
-      }
-      rows_.endRow();
-    }
-    rows_.finish();
   }
 
   void takeRightSide(const Points& b, double scale)

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "soft_tissue_sim/energy/block_matrix.h"
 #include "soft_tissue_sim/solver/pcg_kernels.h"
 
 namespace soft_tissue
@@ -40,6 +41,27 @@ class PackedRows
 
   /** After the last row. */
   void finish() { values_.assign(kPair * columns_.size() / 2, Real(0)); }
+
+  /**
+   * Has the pattern of a matrix, of whose values() load() is given the numbers.
+   * @param nodes  the order that its rows and columns come in
+   * @param place  of each node in that order
+   */
+  void takePattern(const BlockMatrix& a, const std::vector<Index>& nodes,
+                   const std::vector<Index>& place)
+  {
+    clear();
+    for (const Index row : nodes)
+    {
+      for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
+      {
+        const bool below = k < a.diagonal(row);
+        add(place[a.columns()[k]], below ? a.mirror(k) : k, below);
+      }
+      endRow();
+    }
+    finish();
+  }
 
   Index rows() const { return static_cast<Index>(offsets_.size()) - 1; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "soft_tissue_sim/solver/packed_rows.h"
 #include "support/block_matrices.h"
@@ -16,17 +17,10 @@ using namespace test;
 
 PackedRows<double> packed(const BlockMatrix& a)
 {
+  std::vector<Index> order(a.rows());
+  std::iota(order.begin(), order.end(), 0);
   PackedRows<double> rows;
-  for (Index row = 0; row < a.rows(); ++row)
-  {
-    for (Index k = a.offsets()[row]; k < a.offsets()[row + 1]; ++k)
-    {
-      const bool below = k < a.diagonal(row);
-      rows.add(a.columns()[k], below ? a.mirror(k) : k, below);
-    }
-    rows.endRow();
-  }
-  rows.finish();
+  rows.takePattern(a, order, order);
   rows.load(pcgKernels<double>(instructionSet()), a.values().data(), 0, a.rows());
   return rows;
 }
