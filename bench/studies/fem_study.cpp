@@ -4,6 +4,7 @@
 #include "fem_error.h"
 #include "fem_race.h"
 #include "fem_roofline.h"
+#include "fem_threads.h"
 
 namespace soft_tissue::studies
 {
@@ -11,6 +12,7 @@ void studyFem(const std::string& folder, bool quick)
 {
   raceFem(folder, quick);
   raceBullet(folder, quick);
+  studyThreads(folder, quick);
   studyRoofline(folder, quick);
   studyFemError(folder, quick);
 }

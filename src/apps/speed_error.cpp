@@ -20,8 +20,9 @@ constexpr const char* kUsage =
     "  contact  forces on tools against contact mechanics: DIR/contact.csv; finding who touches\n"
     "           whom: DIR/detection.csv\n"
     "  fem      the step without contact beside a plain one: DIR/fem_race.csv; beside Bullet:\n"
-    "           DIR/fem_bullet.csv; its shares of bandwidth: DIR/fem_roofline.csv; speed against\n"
-    "           error of elements, laws, solvers: DIR/fem.csv, drawn by plot_speed_error.py\n"
+    "           DIR/fem_bullet.csv; with two threads beside one: DIR/fem_threads.csv; its shares\n"
+    "           of bandwidth: DIR/fem_roofline.csv; speed against error of elements, laws,\n"
+    "           solvers: DIR/fem.csv, drawn by plot_speed_error.py\n"
     "  stability  hard cases, how each ends: DIR/stability.csv\n"
     "  features   what a step costs with each feature off, idle, in use: DIR/features.csv\n"
     "  --quick  small bodies only, each timed once\n";

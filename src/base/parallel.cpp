@@ -1,20 +1,18 @@
 #include "soft_tissue_sim/base/parallel.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <atomic>
 #include <memory>
 #include <string>
 
 #include "soft_tissue_sim/base/error.h"
+#include "thread_team.h"
 
 namespace soft_tissue
 {
 namespace
 {
 std::atomic<int> g_threads{1};
-std::unique_ptr<tbb::task_arena> g_arena;
+std::unique_ptr<ThreadTeam> g_team;
 }  // namespace
 
 void setThreadCount(int threads)
@@ -27,7 +25,7 @@ void setThreadCount(int threads)
   {
     return;
   }
-  g_arena = threads > 1 ? std::make_unique<tbb::task_arena>(threads) : nullptr;
+  g_team = threads > 1 ? std::make_unique<ThreadTeam>(threads) : nullptr;
   g_threads = threads;
 }
 
@@ -48,11 +46,7 @@ void runChunks(Index chunks, ChunkFunction function, const void* context)
     }
     return;
   }
-  g_arena->execute([&] {
-    tbb::parallel_for(
-        Index{0}, chunks, [&](Index chunk) { function(context, chunk); },
-        tbb::simple_partitioner());
-  });
+  g_team->run(chunks, function, context);
 }
 }  // namespace detail
 

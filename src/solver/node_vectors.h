@@ -24,13 +24,13 @@ inline double dot(const Points& a, const Points& b)
 /** Largest coordinate in size; NaN where one is. */
 inline double largest(const Points& points)
 {
-  double size = 0.0;
-  for (const Vec3& p : points)
+  if (points.empty())
   {
-    const double here = p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    size = here > size || std::isnan(here) ? here : size;
+    return 0.0;
   }
-  return size;
+  return Eigen::Map<const Eigen::ArrayXd>(points.data()->data(), 3 * points.size())
+      .abs()
+      .maxCoeff<Eigen::PropagateNaN>();
 }
 
 }  // namespace soft_tissue

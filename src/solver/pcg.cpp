@@ -13,15 +13,15 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kPiece = 128;       // nodes of a parallel piece where there are no groups
-constexpr Index kCoarseGrain = 48;  // rows of the groups' matrix, per parallel piece
+constexpr Index kPiece = 40;         // nodes of a parallel piece at most
+constexpr Index kCoarseGrain = 120;  // rows of the groups' matrix, per parallel piece
 /** Answers no more exact than this are found in single precision, unless some nodes are so stiff
  * that rounded positions of theirs make forces that the soft ones' drown in. */
 constexpr double kSingleTolerance = 1e-3;
 
 /** Conjugate gradients in one precision, preconditioned by the inverse diagonal blocks plus the
- * rigid motions of groups of nodes. All of it has nodes in the groups' order, and groups for pieces
- * of all loops: threads then read little of what others write. */
+ * rigid motions of groups of nodes. All of it has nodes in the groups' order, and pieces of groups
+ * for pieces of all loops: threads then read little of what others write. */
 template <typename Real>
 class Conjugator
 {
@@ -80,15 +80,29 @@ class Conjugator
     coarse_inverse_.assign(groups.inverse().begin(), groups.inverse().end());
     coarse_residual_.assign(6 * static_cast<std::size_t>(groups.size()), Real(0));
     coarse_move_.assign(coarse_residual_.size() + 7, Real(0));
-    pieces_ = groups.offsets();
-    while (pieces_.back() < static_cast<Index>(nodes_.size()))
+    pieces_ = {0};
+    group_pieces_ = {0};
+    for (int g = 0; g < groups.size(); ++g)
     {
-      pieces_.push_back(std::min(pieces_.back() + kPiece, static_cast<Index>(nodes_.size())));
+      cutUpTo(groups.offsets()[g + 1]);
+      group_pieces_.push_back(pieceCount());
     }
-    groups_ = {groups.size(), groups.offsets().data(), group_.data(), arms_.data()};
+    cutUpTo(static_cast<Index>(nodes_.size()));
+    gathered_.assign(6 * static_cast<std::size_t>(pieceCount()), Real(0));
+    groups_ = {pieces_.data(), group_.data(), arms_.data()};
   }
 
  private:
+  /** Cuts what there is of nodes up to `end` in equal pieces. */
+  void cutUpTo(Index end)
+  {
+    const Index begin = pieces_.back(), count = (end - begin + kPiece - 1) / kPiece;
+    for (Index k = 1; k <= count; ++k)
+    {
+      pieces_.push_back(begin + (end - begin) * k / count);
+    }
+  }
+
   void load(const BlockMatrix& a)
   {
     const PcgKernels<Real>& kernels = pcgKernels<Real>(instructionSet());
@@ -148,7 +162,7 @@ class Conjugator
     });
     now.rz += solveCoarse(kernels);
     const Real* move = coarse_move_.data();
-    if (groups_.size > 0)
+    if (hasGroups())
     {
       parallelFor(pieceCount(), 1, [&](Index begin, Index end) {
         kernels.spread(groups_, pieces_[begin], pieces_[end], move, p);
@@ -188,7 +202,7 @@ class Conjugator
       const Real ratio = static_cast<Real>(next.rz / now.rz);
       now = next;
       parallelFor(pieceCount(), 1, [&](Index begin, Index end) {
-        if (groups_.size > 0)
+        if (hasGroups())
         {
           kernels.spread(groups_, pieces_[begin], pieces_[end], move, q);
         }
@@ -201,21 +215,34 @@ class Conjugator
 
   Index pieceCount() const { return static_cast<Index>(pieces_.size()) - 1; }
 
-  /** The residual's sums over those pieces that are groups. */
+  bool hasGroups() const { return group_pieces_.size() > 1; }
+
+  /** The residual's sums over those pieces that are in groups. */
   void gather(const PcgKernels<Real>& kernels, Index begin, Index end)
   {
-    kernels.gather(groups_, begin, std::min(end, groups_.size), residual_.data(),
-                   coarse_residual_.data());
+    kernels.gather(groups_, begin, std::min(end, group_pieces_.back()), residual_.data(),
+                   gathered_.data());
   }
 
   /** Groups' moves for the residual that was gathered; its product with them. */
   double solveCoarse(const PcgKernels<Real>& kernels)
   {
-    if (groups_.size == 0)
+    if (!hasGroups())
     {
       return 0.0;
     }
-    const Index size = 6 * groups_.size;
+    std::fill(coarse_residual_.begin(), coarse_residual_.end(), Real(0));
+    for (std::size_t g = 0; g + 1 < group_pieces_.size(); ++g)
+    {
+      for (Index piece = group_pieces_[g]; piece < group_pieces_[g + 1]; ++piece)
+      {
+        for (int k = 0; k < 6; ++k)
+        {
+          coarse_residual_[6 * g + k] += gathered_[6 * piece + k];
+        }
+      }
+    }
+    const auto size = static_cast<Index>(coarse_residual_.size());
     parallelFor(size, kCoarseGrain, [&](Index begin, Index end) {
       kernels.multiplyDense(size, begin, end, coarse_inverse_.data(), coarse_residual_.data(),
                             coarse_move_.data());
@@ -229,16 +256,18 @@ class Conjugator
   }
 
   bool loaded_ = false;
-  std::vector<Index> nodes_, place_;      ///< the order, and each node's place in it
-  std::vector<Index> group_;              ///< by places
-  std::vector<Index> pieces_ = {0};       ///< of places: where each begins, and the end
-  std::vector<Index> offsets_, columns_;  ///< the matrix's pattern that rows_ has
+  std::vector<Index> nodes_, place_;       ///< the order, and each node's place in it
+  std::vector<Index> group_;               ///< by places
+  std::vector<Index> pieces_ = {0};        ///< of places: where each begins, and the end
+  std::vector<Index> group_pieces_ = {0};  ///< group g: pieces group_pieces_[g] ...
+  std::vector<Index> offsets_, columns_;   ///< the matrix's pattern that rows_ has
   PackedRows<Real> rows_;
   CouplingRows<Real> couplings_;
   OuterRows<Real> outer_;
   std::vector<Real> inverse_;  ///< of its diagonal blocks
   std::vector<Real> residual_, direction_, image_, solution_;
   NodeGroups<Real> groups_ = {};
+  std::vector<Real> gathered_;  ///< by pieces, 6 each
   std::vector<Real> arms_, coarse_inverse_, coarse_residual_, coarse_move_;
 };
 

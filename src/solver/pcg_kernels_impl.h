@@ -271,42 +271,62 @@ template <typename Real>
 void gather(const NodeGroups<Real>& groups, Index begin, Index end, const Real* r, Real* c)
 {
   using Four = typename Wide<Real>::Four;
-  for (Index g = begin; g < end; ++g)
+  for (Index piece = begin; piece < end; ++piece)
   {
     Four force = {}, moment = {};
-    for (Index i = groups.offsets[g]; i < groups.offsets[g + 1]; ++i)
+    for (Index i = groups.pieces[piece]; i < groups.pieces[piece + 1]; ++i)
     {
       const Four v = loadAs<Four>(r + 3 * static_cast<long>(i));
       force += v;
       moment += cross(loadAs<Four>(groups.arms + 3 * static_cast<long>(i)), v);
     }
     const Real sum[6] = {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
-    std::memcpy(c + 6 * g, sum, sizeof(sum));
+    std::memcpy(c + 6 * piece, sum, sizeof(sum));
   }
 }
 
-/** Adds up columns, so that every number is the same sum in the same order whatever the width. */
-template <typename Real>
-void multiplyDense(Index size, Index begin, Index end, const Real* b, const Real* c, Real* y)
+/** Rows of y = B c from `row` on, as many as kPacks hold. */
+template <int kPacks, typename Real>
+inline void multiplyRowsOf(Index size, Index row, const Real* b, const Real* c, Real* y)
 {
   using Pack = typename Wide<Real>::Pack;
   constexpr Index kSize = sizeof(Pack) / sizeof(Real);
-  constexpr Index kPacks = 6;
-  Index row = begin;
-  for (; row + kPacks * kSize <= end; row += kPacks * kSize)
+  Pack sum[kPacks] = {};
+  for (Index k = 0; k < size; ++k)
   {
-    Pack sum[kPacks] = {};
-    for (Index k = 0; k < size; ++k)
+    const Real* column = b + static_cast<long>(size) * k + row;
+    for (Index i = 0; i < kPacks; ++i)
     {
-      const Real* column = b + static_cast<long>(size) * k + row;
-      for (Index i = 0; i < kPacks; ++i)
-      {
-        sum[i] += loadAs<Pack>(column + i * kSize) * c[k];
-      }
+      sum[i] += loadAs<Pack>(column + i * kSize) * c[k];
     }
-    std::memcpy(y + row, sum, sizeof(sum));
   }
-  for (; row < end; ++row)
+  std::memcpy(y + row, sum, sizeof(sum));
+}
+
+/** Adds up columns, so that every number is the same sum in the same order whatever the width:
+ * where rows don't fill the last registers some of those before are done once more. */
+template <typename Real>
+void multiplyDense(Index size, Index begin, Index end, const Real* b, const Real* c, Real* y)
+{
+  constexpr Index kSize = sizeof(typename Wide<Real>::Pack) / sizeof(Real);
+  constexpr Index kPacks = 6, kMany = kPacks * kSize;
+  if (end - begin >= kMany)
+  {
+    for (Index row = begin; row < end; row += kMany)
+    {
+      multiplyRowsOf<kPacks>(size, row < end - kMany ? row : end - kMany, b, c, y);
+    }
+    return;
+  }
+  if (end - begin >= kSize)
+  {
+    for (Index row = begin; row < end; row += kSize)
+    {
+      multiplyRowsOf<1>(size, row < end - kSize ? row : end - kSize, b, c, y);
+    }
+    return;
+  }
+  for (Index row = begin; row < end; ++row)
   {
     Real sum = 0;
     for (Index k = 0; k < size; ++k)

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "soft_tissue_sim/base/union_find.h"
+#include "soft_tissue_sim/base/parallel.h"
+#include "stiff_parts.h"
 
 namespace soft_tissue
 {
@@ -21,19 +22,9 @@ constexpr double kOutdated = 0.25;
 constexpr double kOtherwise = 2.0;
 /** Share of the largest diagonal number added to all: nodes in a line have no moment of inertia. */
 constexpr double kShift = 1e-6;
-/** A coupling weaker than this share of what holds one of its nodes parts what is stiff from what
- * is soft; a body with more parts than this is taken as one. */
-constexpr double kWeak = 1e-3;
-constexpr std::size_t kMostParts = 8;
 
 using Matrix = Eigen::MatrixXd;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
-
-/** How strongly a node is held. */
-double holdOf(const BlockMatrix& a, Index row)
-{
-  return Eigen::Map<const Mat3>(a.block(a.diagonal(row))).norm();
-}
 
 /** Whether blocks of A's pattern couple a node to others. */
 bool isCoupled(const BlockMatrix& a, Index row)
@@ -47,48 +38,6 @@ bool isCoupled(const BlockMatrix& a, Index row)
     }
   }
   return false;
-}
-
-/**
- * Nodes that blocks of A's pattern couple to others, which the fixed ones are not: body by body.
- * @param weak  couplings weaker than this share of what holds one of their nodes join nothing
- */
-std::vector<std::vector<Index>> coupledNodes(const BlockMatrix& a, double weak)
-{
-  UnionFind bodies(a.rows());
-  std::vector<char> coupled(a.rows(), 0);
-  for (Index row = 0; row < a.rows(); ++row)
-  {
-    for (Index k = a.diagonal(row) + 1; k < a.offsets()[row + 1]; ++k)
-    {
-      const Index column = a.columns()[k];
-      const double strength = Eigen::Map<const Mat3>(a.block(k)).norm();
-      if (strength > 0.0)
-      {
-        coupled[row] = coupled[column] = 1;
-        if (strength >= weak * std::max(holdOf(a, row), holdOf(a, column)))
-        {
-          bodies.join(row, column);
-        }
-      }
-    }
-  }
-  std::vector<std::vector<Index>> nodes;
-  std::vector<Index> number(a.rows(), -1);  // per first node: which body
-  for (Index row = 0; row < a.rows(); ++row)
-  {
-    if (coupled[row] != 0)
-    {
-      Index& body = number[bodies.find(row)];
-      if (body < 0)
-      {
-        body = static_cast<Index>(nodes.size());
-        nodes.emplace_back();
-      }
-      nodes[body].push_back(row);
-    }
-  }
-  return nodes;
 }
 
 /** Groups of each body, by its share of the nodes; one body alone has several or none. */
@@ -112,15 +61,6 @@ std::vector<Index> groupCounts(const std::vector<std::vector<Index>>& bodies)
     }
   }
   return counts;
-}
-
-/** Bodies, in parts where some of it is much stiffer: that moves like a rigid body, and neighbours
- * would hardly move it. */
-std::vector<std::vector<Index>> stiffAndSoftParts(const BlockMatrix& a)
-{
-  std::vector<std::vector<Index>> bodies = coupledNodes(a, 0.0);
-  std::vector<std::vector<Index>> parts = coupledNodes(a, kWeak);
-  return parts.size() > bodies.size() + kMostParts ? bodies : parts;
 }
 
 double couplingOf(const BlockMatrix& a)
@@ -301,6 +241,48 @@ bool RigidGroups::outdated(const BlockMatrix& a, const Points& x) const
   return false;
 }
 
+/** coarse += P^T (its blocks) P. */
+void RigidGroups::addBlocks(const BlockMatrix& a, Eigen::MatrixXd& coarse) const
+{
+  // To the columns of row's group, and to its rows too where it is column's as well.
+  const auto add = [&](Index row, Index column, const Mat3& b) {
+    const Index g = group_[row], h = group_[column];
+    if (g == size() || h == size())
+    {
+      return;
+    }
+    const Mat6 block = projected(b, Eigen::Map<const Vec3>(arms_.data() + 3 * row),
+                                 Eigen::Map<const Vec3>(arms_.data() + 3 * column));
+    coarse.block<6, 6>(6 * h, 6 * g) += block.transpose();
+    if (g == h && column != row)
+    {
+      coarse.block<6, 6>(6 * g, 6 * g) += block;
+    }
+  };
+  parallelFor(size(), 1, [&](Index begin, Index end) {
+    for (Index i = offsets_[begin]; i < offsets_[end]; ++i)
+    {
+      const Index row = nodes_[i];
+      for (Index k = a.diagonal(row); k < a.offsets()[row + 1]; ++k)
+      {
+        add(row, a.columns()[k], Eigen::Map<const Mat3>(a.block(k)));
+      }
+    }
+  });
+  for (const Coupling& coupling : a.couplings())
+  {
+    add(coupling.row, coupling.column, coupling.block);
+  }
+  for (int g = 0; g < size(); ++g)
+  {
+    for (int h = 0; h < g; ++h)
+    {
+      coarse.block<6, 6>(6 * g, 6 * h) += coarse.block<6, 6>(6 * h, 6 * g).transpose();
+      coarse.block<6, 6>(6 * h, 6 * g) = coarse.block<6, 6>(6 * g, 6 * h).transpose();
+    }
+  }
+}
+
 /** coarse += P^T G^T D G P: each vector meets the few groups its nodes are in. */
 void RigidGroups::addOuter(const OuterProducts& outer, Eigen::MatrixXd& coarse) const
 {
@@ -349,31 +331,7 @@ void RigidGroups::build(const BlockMatrix& a, const Points& x)
   measureContrast(a);
   coupling_ = couplingOf(a);
   Matrix coarse = Matrix::Zero(6 * size(), 6 * size());
-  const auto add = [&](Index row, Index column, const Mat3& b) {
-    const Index g = group_[row], h = group_[column];
-    if (g == size() || h == size())
-    {
-      return;
-    }
-    const Mat6 block = projected(b, Eigen::Map<const Vec3>(arms_.data() + 3 * row),
-                                 Eigen::Map<const Vec3>(arms_.data() + 3 * column));
-    coarse.block<6, 6>(6 * g, 6 * h) += block;
-    if (column != row)
-    {
-      coarse.block<6, 6>(6 * h, 6 * g) += block.transpose();
-    }
-  };
-  for (Index row = 0; row < a.rows(); ++row)
-  {
-    for (Index k = a.diagonal(row); k < a.offsets()[row + 1]; ++k)
-    {
-      add(row, a.columns()[k], Eigen::Map<const Mat3>(a.block(k)));
-    }
-  }
-  for (const Coupling& coupling : a.couplings())
-  {
-    add(coupling.row, coupling.column, coupling.block);
-  }
+  addBlocks(a, coarse);
   addOuter(a.outer(), coarse);
   if (size() > 0)
   {

@@ -120,6 +120,14 @@ class SpeedError(unittest.TestCase):
                 self.assertAlmostEqual(float(row["tip_y_mm"]), fall, delta=-0.1 * fall, msg=row)
                 self.assertLess(float(row["farthest_off_mm"]), 0.3 if row["engine"] == "scene 1e-1" else 0.1, row)
 
+            if os.cpu_count() > 1:
+                with open(os.path.join(folder, "fem_threads.csv")) as stream:
+                    rows = list(csv.DictReader(stream))
+                self.assertEqual([int(row["step"]) for row in rows], [0, 10])
+                for row in rows:
+                    self.assertAlmostEqual(float(row["ratio"]), float(row["one_ms"]) / float(row["two_ms"]),
+                                           delta=0.01 * float(row["ratio"]), msg=row)
+
             with open(os.path.join(folder, "fem_roofline.csv")) as stream:
                 rows = {row["loop"]: row for row in csv.DictReader(stream)}
             self.assertEqual(list(rows), ["product single", "product double", "forces", "stiffness"])

@@ -42,10 +42,9 @@ struct PcgSums
 template <typename Real>
 struct NodeGroups
 {
-  Index size;            ///< groups
-  const Index* offsets;  ///< size + 1: nodes of group g are offsets[g] ... offsets[g + 1] - 1
-  const Index* group;    ///< per node; size: in none
-  const Real* arms;      ///< per node, 3: from the group's centre
+  const Index* pieces;  ///< piece k, in one group: nodes pieces[k] ... pieces[k + 1] - 1
+  const Index* group;   ///< per node; their number: in none
+  const Real* arms;     ///< per node, 3: from the group's centre
 };
 
 /**
@@ -70,7 +69,7 @@ struct PcgKernels
                      Real* r, Real* q);
   /** p = z + ratio p. */
   void (*turn)(Index begin, Index end, Real ratio, const Real* z, Real* p);
-  /** c = P^T r of groups begin ... end - 1, 6 a group. */
+  /** c = P^T r of pieces begin ... end - 1, 6 a piece. */
   void (*gather)(const NodeGroups<Real>& groups, Index begin, Index end, const Real* r, Real* c);
   /** Rows begin ... end - 1 of y = B c for a dense symmetric B of this size. */
   void (*multiplyDense)(Index size, Index begin, Index end, const Real* b, const Real* c, Real* y);

@@ -54,6 +54,7 @@ class RigidGroups
   void makeGroups(const BlockMatrix& a, const Points& x);
   void measureContrast(const BlockMatrix& a);
   void placeArms(const Points& x);
+  void addBlocks(const BlockMatrix& a, Eigen::MatrixXd& coarse) const;
   void addOuter(const OuterProducts& outer, Eigen::MatrixXd& coarse) const;
   double evenness() const;
 

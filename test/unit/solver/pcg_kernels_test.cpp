@@ -201,7 +201,7 @@ std::vector<double> runPasses(InstructionSet set)
     group.push_back(groupOf(node));
   }
   const std::vector<Real> arms = numbers(kNodes, 3, 6), dense = numbers(18 * 18 / 3 + 1, 3, 7);
-  const NodeGroups<Real> groups = {3, kGroups.data(), group.data(), arms.data()};
+  const NodeGroups<Real> groups = {kGroups.data(), group.data(), arms.data()};
   std::vector<Real> gathered(18), moved(25, Real(0)), spread = p;
   kernels.gather(groups, 0, 2, r.data(), gathered.data());
   kernels.gather(groups, 2, 3, r.data(), gathered.data());
