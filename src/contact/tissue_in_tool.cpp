@@ -1,6 +1,8 @@
 #include "tissue_in_tool.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "moving_ends.h"
@@ -8,6 +10,14 @@
 
 namespace soft_tissue
 {
+namespace
+{
+/** Places of a cell with a hint of their own: its begin and three quadrature points. What is
+ * between one and the next, in the cell's length: */
+constexpr std::array<double, 4> kBetween = {0.056, 0.306, 0.694, 0.944};
+constexpr std::size_t kPlaces = kBetween.size();
+}  // namespace
+
 TissueInTool::TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool,
                            const ContactOptions& options, double share)
     : tissue_(tissue),
@@ -15,7 +25,8 @@ TissueInTool::TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool,
       options_(options),
       share_(share),
       cell_length_(0.5 * tool.innerRadius()),
-      surface_(*tissue.surface, options, share)
+      surface_(*tissue.surface, options, share),
+      hints_(surface_.size(), std::vector<NearestHint>(1))
 {}
 
 void TissueInTool::place(const Pose& X_WT)
@@ -42,6 +53,11 @@ void TissueInTool::lagAreas(const Points& x, const BoxSelection& elements)
   for (const Index element : near_)
   {
     surface_.lag(element, x, cell_length_);
+    const std::size_t places = kPlaces * surface_.all()[element].cells + 1;
+    if (tool_.searches() && hints_[element].size() < places)
+    {
+      hints_[element].resize(places);
+    }
   }
 }
 
@@ -63,11 +79,11 @@ void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& sampl
     const std::size_t before = samples.size();
     if (options_.segments)
     {
-      addEdge(surface_.all()[element], x, samples);
+      addEdge(element, x, samples);
     }
     else
     {
-      addPoint(surface_.all()[element], x, samples);
+      addPoint(element, x, samples);
     }
     for (std::size_t i = before; i < samples.size(); ++i)
     {
@@ -76,9 +92,9 @@ void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& sampl
   }
 }
 
-double TissueInTool::allowedTo(const SurfaceElement& element) const
+double TissueInTool::allowedTo(Index element) const
 {
-  return allowed_.empty() ? 0.0 : allowed_[&element - surface_.all().data()];
+  return allowed_.empty() ? 0.0 : allowed_[element];
 }
 
 // Between the ends of an edge a wall may stand that none of them is in.
@@ -87,6 +103,7 @@ void TissueInTool::findExcess(const Points& x, const Box3& box_W, std::vector<do
   excess.assign(surface_.size(), -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < surface_.size(); ++i)
   {
+    const auto number = static_cast<Index>(i);
     const SurfaceElement& element = surface_.all()[i];
     const Vec3& a = x[element.nodes[0]];
     const Vec3 along = x[element.nodes[1]] - a;
@@ -101,9 +118,11 @@ void TissueInTool::findExcess(const Points& x, const Box3& box_W, std::vector<do
     for (int k = 0; k <= cells; ++k)
     {
       const Vec3 p = a + static_cast<double>(k) / cells * along;
-      excess[i] = std::max(excess[i], -tool_.distance(X_TW_ * p).distance);
+      excess[i] = std::max(
+          excess[i],
+          -tool_.distance(X_TW_ * p, hintAt(number, static_cast<double>(k) / cells)).distance);
     }
-    excess[i] -= allowedTo(element);
+    excess[i] -= allowedTo(number);
   }
 }
 
@@ -136,16 +155,29 @@ double TissueInTool::easeAllowances(double by)
   return largest;
 }
 
-bool TissueInTool::measure(const Vec3& p, const SurfaceElement& element, double weight,
+/** What was near a place of an element. */
+NearestHint& TissueInTool::hintAt(Index element, double parameter) const
+{
+  std::vector<NearestHint>& hints = hints_[element];
+  const double along = parameter * surface_.all()[element].cells;
+  const double cell = std::floor(along);
+  const std::size_t place = kPlaces * static_cast<std::size_t>(std::max(cell, 0.0)) +
+                            std::count_if(kBetween.begin(), kBetween.end(),
+                                          [&](double end) { return along - cell > end; });
+  return hints[std::min(hints.size() - 1, place)];
+}
+
+bool TissueInTool::measure(const Vec3& p, Index number, double parameter, double weight,
                            ContactSample& sample) const
 {
-  const SignedDistance at = tool_.distance(X_TW_ * p);
+  const SurfaceElement& element = surface_.all()[number];
+  const SignedDistance at = tool_.distance(X_TW_ * p, hintAt(number, parameter));
   sample.position = p;
   sample.depth = -at.distance;
   sample.gradient = -(X_WT_.linear() * at.normal);
   sample.area = share_ * weight * element.area;
   sample.stiffness_area = options_.stiffness_pa_per_m * element.per_area * sample.area;
-  sample.allowed = allowedTo(element);
+  sample.allowed = allowedTo(number);
   sample.force = sample.stiffness_area * sample.excess();
   sample.side = -1;
   return sample.excess() > 0.0;
@@ -154,18 +186,22 @@ bool TissueInTool::measure(const Vec3& p, const SurfaceElement& element, double 
 DepthCurvature TissueInTool::curvature(const ContactSample& sample) const
 {
   const Mat3 R_WT = X_WT_.linear();
+  const double parameter = sample.count == 2 ? sample.coefficient[1] : 0.0;
   DepthCurvature curvature;
   curvature.bend =
-      -sample.depth * (R_WT * tool_.curvature(X_TW_ * sample.position) * R_WT.transpose());
+      -sample.depth *
+      (R_WT * tool_.curvature(X_TW_ * sample.position, hintAt(sample.element, parameter)) *
+       R_WT.transpose());
   return curvature;
 }
 
-void TissueInTool::addPoint(const SurfaceElement& point, const Points& x,
+void TissueInTool::addPoint(Index number, const Points& x,
                             std::vector<ContactSample>& samples) const
 {
+  const SurfaceElement& point = surface_.all()[number];
   const Index node = point.nodes[0];
   ContactSample sample;
-  if (bounds_W_.contains(x[node]) && measure(x[node], point, 1.0, sample))
+  if (bounds_W_.contains(x[node]) && measure(x[node], number, 0.0, 1.0, sample))
   {
     addNodes(tissue_, point, 0.0, sample);
     samples.push_back(sample);
@@ -174,9 +210,9 @@ void TissueInTool::addPoint(const SurfaceElement& point, const Points& x,
 
 // Cells wholly inside the tool keep their quadrature points; in a cell that crosses the surface
 // they move with it, and MovingEnds accounts for that.
-void TissueInTool::addEdge(const SurfaceElement& edge, const Points& x,
-                           std::vector<ContactSample>& samples) const
+void TissueInTool::addEdge(Index number, const Points& x, std::vector<ContactSample>& samples) const
 {
+  const SurfaceElement& edge = surface_.all()[number];
   const auto& nodes = edge.nodes;
   const Vec3& a = x[nodes[0]];
   const Vec3 along = x[nodes[1]] - a;
@@ -189,12 +225,13 @@ void TissueInTool::addEdge(const SurfaceElement& edge, const Points& x,
   }
   const Vec3 along_T = X_TW_.linear() * along;
   const auto distance = [&](double parameter) {
-    const SignedDistance at = tool_.distance(X_TW_ * Vec3(a + parameter * along));
+    const SignedDistance at =
+        tool_.distance(X_TW_ * Vec3(a + parameter * along), hintAt(number, parameter));
     return SegmentDistance{at.distance, at.normal.dot(along_T)};
   };
   const auto sampleAt = [&](double parameter, double weight, ContactSample& sample) {
     addNodes(tissue_, edge, parameter, sample);
-    return measure(a + parameter * along, edge, weight, sample);
+    return measure(a + parameter * along, number, parameter, weight, sample);
   };
   forEachInsideInterval(distance, along.norm(), edge.cells, [&](const InsideInterval& inside) {
     addStretch(kGauss3, inside, along, sampleAt, samples);

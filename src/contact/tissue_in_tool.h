@@ -59,14 +59,13 @@ class TissueInTool
   DepthCurvature curvature(const ContactSample& sample) const;
 
  private:
-  void addPoint(const SurfaceElement& point, const Points& x,
-                std::vector<ContactSample>& samples) const;
-  void addEdge(const SurfaceElement& edge, const Points& x,
-               std::vector<ContactSample>& samples) const;
-  double allowedTo(const SurfaceElement& element) const;
+  void addPoint(Index point, const Points& x, std::vector<ContactSample>& samples) const;
+  void addEdge(Index edge, const Points& x, std::vector<ContactSample>& samples) const;
+  double allowedTo(Index element) const;
   /** @param weight  of the element's area */
-  bool measure(const Vec3& p, const SurfaceElement& element, double weight,
+  bool measure(const Vec3& p, Index element, double parameter, double weight,
                ContactSample& sample) const;
+  NearestHint& hintAt(Index element, double parameter) const;
 
   TissueBody tissue_;
   const RigidBodyShape& tool_;
@@ -80,6 +79,8 @@ class TissueInTool
   std::vector<Index> near_;      ///< elements of it that may touch
   std::vector<double> allowed_;  ///< per element, depth that presses nothing, m; empty: none
   std::vector<double> deepest_;  ///< of allowMore()
+  /** Per element and cell: what was near it last; one for an element where nothing searches. */
+  mutable std::vector<std::vector<NearestHint>> hints_;
 };
 
 }  // namespace soft_tissue

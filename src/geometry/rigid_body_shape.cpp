@@ -31,13 +31,17 @@ void RigidBodyShape::add(std::shared_ptr<const RigidShape> shape, const Pose& X_
   parts_.push_back({std::move(shape), X_TS, X_TS.inverse()});
 }
 
-RigidBodyShape::Nearest RigidBodyShape::nearest(const Vec3& p_T) const
+/** @param hint  of the only part, or null */
+RigidBodyShape::Nearest RigidBodyShape::nearest(const Vec3& p_T, NearestHint* hint) const
 {
   Nearest nearest;
   nearest.at.distance = std::numeric_limits<double>::infinity();
   for (const Part& part : parts_)
   {
-    const SignedDistance candidate = part.shape->distance(part.X_ST * p_T);
+    const Vec3 p_S = part.X_ST * p_T;
+    const SignedDistance candidate = hint != nullptr && parts_.size() == 1
+                                         ? part.shape->distance(p_S, *hint)
+                                         : part.shape->distance(p_S);
     if (candidate.distance < nearest.at.distance)
     {
       nearest = {&part, candidate};
@@ -46,25 +50,41 @@ RigidBodyShape::Nearest RigidBodyShape::nearest(const Vec3& p_T) const
   return nearest;
 }
 
-SignedDistance RigidBodyShape::distance(const Vec3& p_T) const
+SignedDistance RigidBodyShape::distanceTo(const Nearest& found) const
 {
-  Nearest found = nearest(p_T);
+  SignedDistance at = found.at;
   if (found.part != nullptr)
   {
-    found.at.normal = found.part->X_TS.linear() * found.at.normal;
+    at.normal = found.part->X_TS.linear() * at.normal;
   }
-  return found.at;
+  return at;
 }
 
-Mat3 RigidBodyShape::curvature(const Vec3& p_T) const
+SignedDistance RigidBodyShape::distance(const Vec3& p_T) const
 {
-  const Part* part = nearest(p_T).part;
+  return distanceTo(nearest(p_T, nullptr));
+}
+
+SignedDistance RigidBodyShape::distance(const Vec3& p_T, NearestHint& hint) const
+{
+  return distanceTo(nearest(p_T, &hint));
+}
+
+Mat3 RigidBodyShape::curvature(const Vec3& p_T, NearestHint& hint) const
+{
+  const Part* part = parts_.size() == 1 ? parts_.data() : nearest(p_T, nullptr).part;
   if (part == nullptr)
   {
     return Mat3::Zero();
   }
   const Mat3 R_TS = part->X_TS.linear();
-  return R_TS * part->shape->curvature(part->X_ST * p_T) * R_TS.transpose();
+  return R_TS * part->shape->curvature(part->X_ST * p_T, hint) * R_TS.transpose();
+}
+
+Mat3 RigidBodyShape::curvature(const Vec3& p_T) const
+{
+  NearestHint unused;
+  return curvature(p_T, unused);
 }
 
 Box3 RigidBodyShape::bounds() const

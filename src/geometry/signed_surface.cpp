@@ -7,6 +7,12 @@
 
 namespace soft_tissue
 {
+namespace
+{
+/** What is farther than another by less than this factor may be as far: rounding decides. */
+constexpr double kTied = 1.0 + 1e-12;
+}  // namespace
+
 void SignedSurface::build(SurfaceMesh mesh, PseudoNormals normals, double on_surface)
 {
   mesh_ = std::move(mesh);
@@ -32,12 +38,16 @@ TrianglePoint SignedSurface::closestOn(Index triangle, const Vec3& p) const
 SignedSurface::Nearest SignedSurface::nearest(const Vec3& p, double bound) const
 {
   Nearest nearest;
-  nearest.triangle = tree_.closest(
-      p, [&](Index triangle) { return closestOn(triangle, p).squared_distance; }, bound);
-  if (nearest.triangle >= 0)
-  {
-    nearest.at = closestOn(nearest.triangle, p);
-  }
+  nearest.at.squared_distance = bound;
+  const auto measure = [&](Index triangle) {
+    const Nearest here = nearestOn(triangle, p);
+    if (here.isBefore(nearest))
+    {
+      nearest = here;
+    }
+    return kTied * here.at.squared_distance;
+  };
+  tree_.closest(p, measure, kTied * bound);
   return nearest;
 }
 

@@ -22,10 +22,27 @@ class SignedSurface
   {
     Index triangle = -1;  ///< none nearer than the bound
     TrianglePoint at;
+
+    /** Nearer, or as near and first in the mesh. */
+    bool isBefore(const Nearest& other) const
+    {
+      return at.squared_distance < other.at.squared_distance ||
+             (at.squared_distance == other.at.squared_distance && triangle < other.triangle);
+    }
   };
 
-  /** The mesh's point nearest to p, if its squared distance is below the bound, m^2. */
+  /** The mesh's point nearest to p, if its squared distance is below the bound, m^2; of triangles
+   * as near as each other the first. */
   Nearest nearest(const Vec3& p, double bound = std::numeric_limits<double>::infinity()) const;
+
+  /** Calls visit(Nearest) for triangles whose boxes are no farther than this, m^2, all the nearer
+   * triangles among them. */
+  template <typename Visit>
+  void forEachWithin(const Vec3& p, double squared_distance, const Visit& visit) const
+  {
+    tree_.forEachWithin(p, squared_distance,
+                        [&](Index triangle) { visit(nearestOn(triangle, p)); });
+  }
 
   /** A triangle's point nearest to p. */
   Nearest nearestOn(Index triangle, const Vec3& p) const;
@@ -36,6 +53,7 @@ class SignedSurface
 
   Box3 bounds() const { return tree_.bounds(); }
   const SurfaceMesh& mesh() const { return mesh_; }
+  Index triangleCount() const { return static_cast<Index>(mesh_.triangles.size()); }
   const PseudoNormals& normals() const { return normals_; }
 
  private:

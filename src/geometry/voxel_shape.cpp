@@ -1,22 +1,21 @@
 #include "soft_tissue_sim/geometry/voxel_shape.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <tuple>
 
-#include "signed_surface.h"
 #include "soft_tissue_sim/base/error.h"
 #include "surface_grid.h"
 #include "voxel_net.h"
+#include "voxel_patch.h"
 
 namespace soft_tissue
 {
 namespace
 {
-constexpr int kPatch = 16;  ///< cells along each edge of a patch
-
 /** A ball about the surface that has lost its direction, in the size of a patch. */
 constexpr double kOnSurface = 1e-12;
 
@@ -64,18 +63,6 @@ void forEachPatch(const CellBox& patches, const Visit& visit)
   }
 }
 }  // namespace
-
-struct VoxelShape::Patch
-{
-  Cell at;
-  SignedSurface surface;
-};
-
-struct VoxelShape::Nearest
-{
-  const Patch* patch = nullptr;
-  SignedSurface::Nearest at;
-};
 
 VoxelShape::VoxelShape(VoxelSet cells) : cells_(std::move(cells)) {}
 
@@ -137,6 +124,8 @@ void VoxelShape::finishPatches()
   {
     boxes_.push_back(patch.surface.bounds());
   }
+  static std::atomic<std::uint64_t> versions{0};
+  version_ = ++versions;
 }
 
 void VoxelShape::remake(VoxelSet cells, const CellBox& patches)
@@ -230,69 +219,6 @@ VoxelSet VoxelShape::exchange(VoxelSet cells)
   }
   finishPatches();
   return cells;
-}
-
-// Patches are tried in the order of a list, ties go to the first: whatever else there is, the same
-// triangle is found.
-VoxelShape::Nearest VoxelShape::nearest(const Vec3& p) const
-{
-  std::size_t first = patches_.size();
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < patches_.size(); ++i)
-  {
-    const double squared = boxes_[i].squaredDistance(p);
-    if (squared < least)
-    {
-      least = squared;
-      first = i;
-    }
-  }
-  Nearest found;
-  if (first == patches_.size())
-  {
-    return found;
-  }
-  const SignedSurface::Nearest bound = patches_[first].surface.nearest(p);
-  // A little more than there is, so that ties are found as well.
-  const double most = bound.at.squared_distance * (1.0 + 1e-12) + 1e-300;
-  found = {&patches_[first], bound};
-  for (std::size_t i = 0; i < patches_.size(); ++i)
-  {
-    if (i == first || boxes_[i].squaredDistance(p) > most)
-    {
-      continue;
-    }
-    const Patch& patch = patches_[i];
-    const SignedSurface::Nearest other = patch.surface.nearest(p, most);
-    if (other.triangle < 0)
-    {
-      continue;
-    }
-    const double difference = other.at.squared_distance - found.at.at.squared_distance;
-    if (difference < 0.0 || (difference == 0.0 && before(patch.at, found.patch->at)))
-    {
-      found = {&patch, other};
-    }
-  }
-  return found;
-}
-
-SignedDistance VoxelShape::distance(const Vec3& p) const
-{
-  const Nearest found = nearest(p);
-  if (found.patch == nullptr)
-  {
-    const bool inside = cells_.occupied(cells_.cellOf(p));
-    return {inside ? -kPatch * cells_.cellSize() : std::numeric_limits<double>::infinity(),
-            Vec3::UnitZ()};
-  }
-  return found.patch->surface.distance(p, found.at);
-}
-
-Mat3 VoxelShape::curvature(const Vec3& p) const
-{
-  const Nearest found = nearest(p);
-  return found.patch == nullptr ? Mat3(Mat3::Zero()) : found.patch->surface.curvature(p, found.at);
 }
 
 Box3 VoxelShape::bounds() const

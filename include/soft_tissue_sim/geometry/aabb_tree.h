@@ -56,6 +56,29 @@ class AabbTree
     }
   }
 
+  /** Calls visit(Index item) for each item whose box is no farther from p than this, m^2. */
+  template <typename Visit>
+  void forEachWithin(const Vec3& p, double squared_distance, Visit&& visit) const
+  {
+    Stack stack;
+    for (Index node = empty() ? -1 : 0; node >= 0;)
+    {
+      const Node& current = nodes_[node];
+      const bool near = current.box.squaredDistance(p) <= squared_distance;
+      if (near && current.item < 0)
+      {
+        stack.push(current.right);
+        node = node + 1;
+        continue;
+      }
+      if (near)
+      {
+        visit(current.item);
+      }
+      node = stack.pop();
+    }
+  }
+
   /**
    * The item nearest to a point, where squared_distance(Index item) gives an item's true squared
    * distance (m^2); only those below `bound` count.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +16,24 @@ struct SignedDistance
 {
   double distance = 0.0;        ///< m
   Vec3 normal = Vec3::UnitZ();  ///< unit gradient: points away from the solid
+};
+
+/** What of a surface is near a point: for points near that one no search is needed, and the answer
+ * is the same. A shape writes it when it had to search. */
+struct NearestHint
+{
+  struct Place
+  {
+    Index piece, triangle;
+    float least;  ///< it is no nearer to the point than this, m
+  };
+  static constexpr int kMost = 6;
+
+  std::uint64_t surface = 0;  ///< whose it is, and of which version; 0: nobody's
+  Vec3 at = Vec3::Zero();     ///< the point, m, shape frame
+  double reach = 0.0;         ///< from there: what is nearer is in the list, m
+  int count = 0;
+  std::array<Place, kMost> near{};  ///< nearest first
 };
 
 /** A triangulated surface piece of a solid, for use as contact quadrature and for display. */
@@ -37,6 +57,15 @@ class RigidShape
    * where the nearest surface is flat or the direction to it is lost.
    */
   virtual Mat3 curvature(const Vec3& p) const = 0;
+
+  /** The same two, bit by bit, for many points near each other. */
+  virtual SignedDistance distance(const Vec3& p, NearestHint& /*hint*/) const
+  {
+    return distance(p);
+  }
+  virtual Mat3 curvature(const Vec3& p, NearestHint& /*hint*/) const { return curvature(p); }
+  /** Whether a hint is of any use. */
+  virtual bool searches() const { return false; }
 
   /** Bounds in the shape frame. */
   virtual Box3 bounds() const = 0;
@@ -82,6 +111,10 @@ class RigidBodyShape
   SignedDistance distance(const Vec3& p_T) const;
   /** Second derivative of distance(), body frame, 1/m; zero while empty. */
   Mat3 curvature(const Vec3& p_T) const;
+  /** The same two, bit by bit, for many points near each other; quicker where there is one part. */
+  SignedDistance distance(const Vec3& p_T, NearestHint& hint) const;
+  Mat3 curvature(const Vec3& p_T, NearestHint& hint) const;
+  bool searches() const { return parts_.size() == 1 && parts_[0].shape->searches(); }
   Box3 bounds() const;
   double innerRadius() const;  ///< the smallest of its parts, m; 0 while empty
   bool convex() const { return parts_.size() == 1 && parts_[0].shape->convex(); }
@@ -100,7 +133,8 @@ class RigidBodyShape
     const Part* part = nullptr;
     SignedDistance at;  ///< shape frame
   };
-  Nearest nearest(const Vec3& p_T) const;
+  Nearest nearest(const Vec3& p_T, NearestHint* hint) const;
+  SignedDistance distanceTo(const Nearest& found) const;
 
   std::vector<Part> parts_;
 };

@@ -65,6 +65,9 @@ class VoxelShape : public RigidShape
    */
   SignedDistance distance(const Vec3& p) const override;
   Mat3 curvature(const Vec3& p) const override;
+  SignedDistance distance(const Vec3& p, NearestHint& hint) const override;
+  Mat3 curvature(const Vec3& p, NearestHint& hint) const override;
+  bool searches() const override { return true; }
   /** Bounds of the whole surface, covered or not. */
   Box3 bounds() const override;
   bool convex() const override { return false; }
@@ -80,12 +83,17 @@ class VoxelShape : public RigidShape
   void addPatch(const Cell& at);
   void finishPatches();
   std::vector<Cell> stalePatches(const VoxelSet& cells) const;
-  Nearest nearest(const Vec3& p) const;
+  Nearest nearest(const Vec3& p, NearestHint* hint) const;
+  Nearest search(const Vec3& p, const Nearest& known) const;
+  void remember(const Vec3& p, const Nearest& found, NearestHint& hint) const;
+  SignedDistance distanceTo(const Nearest& found, const Vec3& p) const;
+  Mat3 curvatureOf(const Nearest& found, const Vec3& p) const;
 
   VoxelSet cells_;
   CellBox covered_;             ///< in patches
   std::vector<Patch> patches_;  ///< those with a surface, ascending
   std::vector<Box3> boxes_;     ///< theirs
+  std::uint64_t version_ = 0;   ///< of the patches, no other shape's
 };
 
 }  // namespace soft_tissue

@@ -44,6 +44,19 @@ void expectQueriesMatchBruteForce(const AabbTree& tree, const std::vector<Box3>&
     EXPECT_EQ(found, expected);
 
     const Vec3 p = random.point(2.0);
+    found.clear();
+    expected.clear();
+    tree.forEachWithin(p, 0.3, [&](Index item) { found.push_back(item); });
+    std::sort(found.begin(), found.end());
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+    {
+      if (boxes[i].squaredDistance(p) <= 0.3)
+      {
+        expected.push_back(static_cast<Index>(i));
+      }
+    }
+    EXPECT_EQ(found, expected);
+
     const auto squared = [&](Index item) { return boxes[item].squaredDistance(p); };
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < boxes.size(); ++i)

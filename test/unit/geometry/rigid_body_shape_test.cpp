@@ -27,6 +27,9 @@ TEST(RigidBodyShape, IsTheUnionOfItsPosedParts)
   {
     const Vec3 p = random.point(0.3);
     const SignedDistance found = body.distance(p);
+    NearestHint hint;
+    EXPECT_EQ(body.distance(p, hint).distance, found.distance);
+    EXPECT_EQ(hint.surface, 0U) << "it is of one part only";
     const SignedDistance to_a = a->distance(X_TA.inverse() * p);
     const SignedDistance to_b = b->distance(X_TB.inverse() * p);
     EXPECT_NEAR(found.distance, std::min(to_a.distance, to_b.distance), 1e-15);

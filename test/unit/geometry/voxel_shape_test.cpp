@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <cstring>
 
@@ -225,6 +226,46 @@ TEST(VoxelShape, AfterManyExchangesIsWhatItWouldHaveBeenMadeAs)
           << round << ": " << p.transpose();
     }
   }
+}
+
+// Points that go on by little or much, now and then to corners and middles of cells, which are
+// equally near to several triangles, while cells change and more is covered.
+TEST(VoxelShape, WhatIsRememberedOfAPointChangesNoBit)
+{
+  const CellBox all = {Cell::Constant(-20), Cell::Constant(20)};
+  VoxelShape shape(randomVoxels(21, all, 0.3));
+  RigidBodyShape body;
+  const auto fixed = std::make_shared<VoxelShape>(wholeShape(randomVoxels(23, all, 0.4)));
+  body.add(fixed, Pose::Identity());
+  RandomGeometry random(22);
+  std::array<NearestHint, 3> hints, of_body;
+  int known = 0;
+  for (int trial = 0; trial < 6000; ++trial)
+  {
+    if (trial % 1000 == 0)
+    {
+      VoxelSet other = shape.cells();
+      other.fill({Cell(-3, trial / 1000 - 3, -2), Cell(4, trial / 1000 - 2, 3)}, trial % 2000 == 0);
+      shape.exchange(other);
+    }
+    if (trial % 1500 == 500)
+    {
+      const double reach = 2.0 + trial / 300.0;
+      shape.cover({Vec3::Constant(-reach), Vec3::Constant(reach)});
+    }
+    NearestHint& hint = hints[trial % 3];
+    Vec3 p = hint.at + random.point(trial % 7 == 0 ? 3.0 : trial % 2 == 0 ? 0.2 : 0.01);
+    p = trial % 5 == 0 ? Vec3(0.5 * (2.0 * p).array().round()) : p;
+    p = p.norm() < 10.0 ? p : random.point(1.0);
+    const Vec3 before = hint.at;
+    EXPECT_TRUE(sameBits(shape.distance(p, hint), shape.distance(p))) << p.transpose();
+    EXPECT_EQ(shape.curvature(p, hint), shape.curvature(p)) << p.transpose();
+    known += hint.surface != 0 && hint.at == before && before != p;
+    EXPECT_TRUE(sameBits(body.distance(p, of_body[trial % 3]), body.distance(p))) << p.transpose();
+    EXPECT_EQ(body.curvature(p, of_body[trial % 3]), body.curvature(p)) << p.transpose();
+  }
+  EXPECT_TRUE(body.searches());
+  EXPECT_GT(known, 2000) << "of 6000 points that took no search";
 }
 
 TEST(VoxelShape, FarChangesChangeNothingThatIsCovered)
