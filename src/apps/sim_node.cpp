@@ -3,7 +3,6 @@
 #include <ros/ros.h>
 
 #include <csignal>
-#include <thread>
 
 #include "soft_tissue_sim/node/scene_loader.h"
 
@@ -16,8 +15,8 @@ int main(int argc, char** argv)
   {
     using namespace soft_tissue_sim;
     const NodeParams params = readNodeParams(private_node);
-    const int processors = static_cast<int>(std::thread::hardware_concurrency());
-    soft_tissue::setThreadCount(params.threads > 0 ? params.threads : processors);
+    soft_tissue::setThreadCount(params.threads > 0 ? params.threads
+                                                   : soft_tissue::usualThreadCount());
     ProgressTopic progress(private_node);
     ProgressTopic::Task loading = progress.begin("load", 2);
     loading.enter(0, "reading " + params.scene);

@@ -1,8 +1,10 @@
 #include "soft_tissue_sim/base/parallel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "soft_tissue_sim/base/error.h"
 #include "thread_team.h"
@@ -32,6 +34,12 @@ void setThreadCount(int threads)
 int threadCount()
 {
   return g_threads;
+}
+
+int usualThreadCount()
+{
+  constexpr unsigned kMost = 8;
+  return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, kMost));
 }
 
 namespace detail

@@ -1,7 +1,11 @@
 #include "thread_team.h"
 
 #include <chrono>
+#include <string>
+#include <system_error>
 #include <utility>
+
+#include "soft_tissue_sim/base/error.h"
 
 namespace soft_tissue
 {
@@ -64,13 +68,26 @@ bool spinUntil(const Condition& condition)
 
 ThreadTeam::ThreadTeam(int threads) : shares_(threads)
 {
-  for (int member = 1; member < threads; ++member)
+  try
   {
-    threads_.emplace_back([this, member] { work(member); });
+    for (int member = 1; member < threads; ++member)
+    {
+      threads_.emplace_back([this, member] { work(member); });
+    }
+  }
+  catch (const std::system_error& error)
+  {
+    end();
+    throw Error(std::to_string(threads) + " threads: " + error.what());
   }
 }
 
 ThreadTeam::~ThreadTeam()
+{
+  end();
+}
+
+void ThreadTeam::end()
 {
   {
     const std::lock_guard<std::mutex> lock(sleep_mutex_);

@@ -21,7 +21,10 @@ namespace soft_tissue
 class ThreadTeam
 {
  public:
-  /** @param threads  the caller's among them, >= 1 */
+  /**
+   * @param threads  the caller's among them, >= 1
+   * @throws Error if the system has no more threads
+   */
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -50,6 +53,7 @@ class ThreadTeam
     std::atomic<std::uint64_t> ticket{0};
   };
 
+  void end();
   void open(Index pieces, detail::ChunkFunction function, const void* context);
   bool look(Loop& loop) const;
   void work(std::size_t member);

@@ -53,11 +53,6 @@ void TissueInTool::lagAreas(const Points& x, const BoxSelection& elements)
   for (const Index element : near_)
   {
     surface_.lag(element, x, cell_length_);
-    const std::size_t places = kPlaces * surface_.all()[element].cells + 1;
-    if (tool_.searches() && hints_[element].size() < places)
-    {
-      hints_[element].resize(places);
-    }
   }
 }
 
@@ -70,6 +65,14 @@ void TissueInTool::dropFarther(const Points& x, double margin)
     return tool_.distance(X_TW_ * Vec3(0.5 * (a + b))).distance > reach;
   };
   near_.erase(std::remove_if(near_.begin(), near_.end(), outside), near_.end());
+  for (const Index element : near_)
+  {
+    const std::size_t places = kPlaces * surface_.all()[element].cells + 1;
+    if (tool_.searches() && hints_[element].size() < places)
+    {
+      hints_[element].resize(places);
+    }
+  }
 }
 
 void TissueInTool::addSamples(const Points& x, std::vector<ContactSample>& samples) const

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
-#include <thread>
 
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/node/physics_loop.h"
@@ -121,8 +120,8 @@ void setTargets(soft_tissue::Scene& scene, const BagPoses& poses, double begin_s
 
 Replay readReplay(const RunOptions& options)
 {
-  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  soft_tissue::setThreadCount(options.threads > 0 ? options.threads : processors);
+  soft_tissue::setThreadCount(options.threads > 0 ? options.threads
+                                                  : soft_tissue::usualThreadCount());
   Replay replay;
   replay.config = loadConfig(options.scene);
   replay.scratch = std::make_shared<ScratchFolder>();

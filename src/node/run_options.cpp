@@ -76,7 +76,7 @@ std::string runUsage()
          "  --load-state FILE    go on from the state of a run of the same scene\n"
          "  --save-state FILE    keep the state at the end\n"
          "  --frame-id FRAME     name of the world frame (world)\n"
-         "  --threads N          threads a step may use; 0: one per processor\n"
+         "  --threads N          threads a step may use; 0: one per processor, up to 8\n"
          "  --quiet              print nothing but errors\n"
          "  --describe-schema    print all keys of a scene file, and end\n"
          "  --help               print this, and end\n\n"

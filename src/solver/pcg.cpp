@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "coupling_rows.h"
 #include "outer_rows.h"
@@ -96,10 +97,11 @@ class Conjugator
   /** Cuts what there is of nodes up to `end` in equal pieces. */
   void cutUpTo(Index end)
   {
-    const Index begin = pieces_.back(), count = (end - begin + kPiece - 1) / kPiece;
-    for (Index k = 1; k <= count; ++k)
+    const Index begin = pieces_.back();
+    const std::int64_t size = end - begin, count = (size + kPiece - 1) / kPiece;
+    for (std::int64_t k = 1; k <= count; ++k)
     {
-      pieces_.push_back(begin + (end - begin) * k / count);
+      pieces_.push_back(begin + static_cast<Index>(size * k / count));
     }
   }
 

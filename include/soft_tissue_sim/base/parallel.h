@@ -4,9 +4,15 @@
 
 namespace soft_tissue
 {
-/** Threads that parallel loops may use, process wide, >= 1. Results never depend on it. */
+/**
+ * Threads that parallel loops may use, process wide. Results never depend on it. Not while a loop
+ * runs.
+ * @throws Error below 1, or if the system has no more threads
+ */
 void setThreadCount(int threads);
 int threadCount();
+/** One per processor, 8 at most: loops of some ten microseconds have no work for more. */
+int usualThreadCount();
 
 namespace detail
 {

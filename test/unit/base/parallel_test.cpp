@@ -206,6 +206,13 @@ TEST(ThreadCount, isWhatWasSet)
   EXPECT_EQ(threadCount(), 1);
 }
 
+TEST(ThreadCount, isUsuallyThatOfProcessorsUpToEight)
+{
+  EXPECT_GE(usualThreadCount(), 1);
+  EXPECT_LE(usualThreadCount(), 8);
+  EXPECT_LE(usualThreadCount(), std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+}
+
 TEST(ThreadCount, belowOneIsAnError)
 {
   for (const int threads : {0, -4})
