@@ -34,16 +34,8 @@ void pause()
 template <typename Condition>
 bool spinUntil(const Condition& condition)
 {
-  for (int i = 0; i < kLooks; ++i)
-  {
-    if (condition())
-    {
-      return true;
-    }
-    pause();
-  }
-  const Clock::time_point begin = Clock::now();
-  for (;;)
+  Clock::time_point begin;
+  for (bool first = true;; first = false)
   {
     for (int i = 0; i < kLooks; ++i)
     {
@@ -53,7 +45,9 @@ bool spinUntil(const Condition& condition)
       }
       pause();
     }
-    const Clock::duration waited = Clock::now() - begin;
+    const Clock::time_point now = Clock::now();
+    begin = first ? now : begin;
+    const Clock::duration waited = now - begin;
     if (waited > kPatience)
     {
       return condition();

@@ -26,7 +26,7 @@ TissueInTool::TissueInTool(const TissueBody& tissue, const RigidBodyShape& tool,
       share_(share),
       cell_length_(0.5 * tool.innerRadius()),
       surface_(*tissue.surface, options, share),
-      hints_(surface_.size(), std::vector<NearestHint>(1))
+      hints_(surface_.size())
 {}
 
 void TissueInTool::place(const Pose& X_WT)
@@ -65,10 +65,14 @@ void TissueInTool::dropFarther(const Points& x, double margin)
     return tool_.distance(X_TW_ * Vec3(0.5 * (a + b))).distance > reach;
   };
   near_.erase(std::remove_if(near_.begin(), near_.end(), outside), near_.end());
+  if (!tool_.searches())
+  {
+    return;
+  }
   for (const Index element : near_)
   {
-    const std::size_t places = kPlaces * surface_.all()[element].cells + 1;
-    if (tool_.searches() && hints_[element].size() < places)
+    const std::size_t places = options_.segments ? kPlaces * surface_.all()[element].cells + 1 : 1;
+    if (hints_[element].size() < places)
     {
       hints_[element].resize(places);
     }
@@ -106,7 +110,6 @@ void TissueInTool::findExcess(const Points& x, const Box3& box_W, std::vector<do
   excess.assign(surface_.size(), -std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < surface_.size(); ++i)
   {
-    const auto number = static_cast<Index>(i);
     const SurfaceElement& element = surface_.all()[i];
     const Vec3& a = x[element.nodes[0]];
     const Vec3 along = x[element.nodes[1]] - a;
@@ -121,11 +124,9 @@ void TissueInTool::findExcess(const Points& x, const Box3& box_W, std::vector<do
     for (int k = 0; k <= cells; ++k)
     {
       const Vec3 p = a + static_cast<double>(k) / cells * along;
-      excess[i] = std::max(
-          excess[i],
-          -tool_.distance(X_TW_ * p, hintAt(number, static_cast<double>(k) / cells)).distance);
+      excess[i] = std::max(excess[i], -tool_.distance(X_TW_ * p).distance);
     }
-    excess[i] -= allowedTo(number);
+    excess[i] -= allowedTo(static_cast<Index>(i));
   }
 }
 
@@ -162,6 +163,10 @@ double TissueInTool::easeAllowances(double by)
 NearestHint& TissueInTool::hintAt(Index element, double parameter) const
 {
   std::vector<NearestHint>& hints = hints_[element];
+  if (hints.empty())
+  {
+    return elsewhere_;
+  }
   const double along = parameter * surface_.all()[element].cells;
   const double cell = std::floor(along);
   const std::size_t place = kPlaces * static_cast<std::size_t>(std::max(cell, 0.0)) +

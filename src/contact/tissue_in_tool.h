@@ -79,8 +79,9 @@ class TissueInTool
   std::vector<Index> near_;      ///< elements of it that may touch
   std::vector<double> allowed_;  ///< per element, depth that presses nothing, m; empty: none
   std::vector<double> deepest_;  ///< of allowMore()
-  /** Per element and cell: what was near it last; one for an element where nothing searches. */
+  /** Per element, of places along it: what was near there last. None for most. */
   mutable std::vector<std::vector<NearestHint>> hints_;
+  mutable NearestHint elsewhere_;  ///< of elements that have none of their own
 };
 
 }  // namespace soft_tissue

@@ -7,12 +7,6 @@
 
 namespace soft_tissue
 {
-namespace
-{
-/** What is farther than another by less than this factor may be as far: rounding decides. */
-constexpr double kTied = 1.0 + 1e-12;
-}  // namespace
-
 void SignedSurface::build(SurfaceMesh mesh, PseudoNormals normals, double on_surface)
 {
   mesh_ = std::move(mesh);

@@ -18,6 +18,9 @@ class SignedSurface
    * diagonal of the mesh's bounds */
   void build(SurfaceMesh mesh, PseudoNormals normals, double on_surface);
 
+  /** What is farther than another by less than this factor may be as far: rounding decides. */
+  static constexpr double kTied = 1.0 + 1e-12;
+
   struct Nearest
   {
     Index triangle = -1;  ///< none nearer than the bound
@@ -53,7 +56,6 @@ class SignedSurface
 
   Box3 bounds() const { return tree_.bounds(); }
   const SurfaceMesh& mesh() const { return mesh_; }
-  Index triangleCount() const { return static_cast<Index>(mesh_.triangles.size()); }
   const PseudoNormals& normals() const { return normals_; }
 
  private:

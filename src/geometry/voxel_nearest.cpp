@@ -8,9 +8,8 @@ namespace soft_tissue
 {
 namespace
 {
-/** What is farther than another by less than this factor, or square, may be as far. */
-constexpr double kTied = 1.0 + 1e-12;
-constexpr double kLeast = 1e-300;  // m^2
+/** Squares of distances no larger than this are as good as none, m^2. */
+constexpr double kLeast = 1e-300;
 /** How much farther than the nearest is remembered, in cells, and how surely nothing else is. */
 constexpr double kRemembered = 0.6;
 constexpr double kSurely = 1.0 - 1e-9;
@@ -73,7 +72,7 @@ VoxelShape::Nearest VoxelShape::search(const Vec3& p, const Nearest& known) cons
   for (Index i = 0; i < static_cast<Index>(patches_.size()); ++i)
   {
     // A little more than there is, so that ties are found as well.
-    const double bound = kTied * found.at.at.squared_distance + kLeast;
+    const double bound = SignedSurface::kTied * found.at.at.squared_distance + kLeast;
     if (i != first && boxes_[i].squaredDistance(p) <= bound)
     {
       const SignedSurface::Nearest here = patches_[i].surface.nearest(p, bound);
