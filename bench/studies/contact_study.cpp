@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <string>
 #include <vector>
 
 #include "contact_cost.h"
@@ -42,7 +43,7 @@ class ContactTable
     stream_ << line << std::flush;
     check();
     std::printf(
-        "%-14s %-7s kappa %5g E/a %7zu tets of %.3f a: force %+6.2f %%, radius %.2f of a, "
+        "%-26s %-7s kappa %5g E/a %7zu tets of %.3f a: force %+6.2f %%, radius %.2f of a, "
         "mean pressure within a/2 %+6.1f %%, %d Newton, %.1f s%s\n",
         name.c_str(), response, mesh.stiffness, got.tets, got.element_m / radius,
         100.0 * (got.force / reference - 1.0), got.radius_m / radius,
@@ -72,7 +73,7 @@ void studyContact(const std::string& folder, bool quick)
   using Shape = Indentation::Shape;
   struct Case
   {
-    const char* name;
+    std::string name;
     Indentation problem;
   };
   Indentation hertz, stiffer, larger, shallow, punch, cone;
@@ -89,6 +90,7 @@ void studyContact(const std::string& folder, bool quick)
   punch.radius_m = 0.002;
   cone.shape = Shape::cone;
   const std::vector<int> sizes = quick ? std::vector<int>{6} : std::vector<int>{8, 12, 16, 20, 24};
+  const std::string in_rings = " in rings";
   ContactTable table(folder);
   for (const Case& one :
        {Case{"hertz", hertz}, Case{"hertz nu 0.49", stiffer}, Case{"hertz large", larger},
@@ -99,6 +101,19 @@ void studyContact(const std::string& folder, bool quick)
       IndentationMesh mesh;
       mesh.cells = cells;
       table.run(one.name, one.problem, mesh);
+    }
+    for (const int around : quick ? std::vector<int>{8} : std::vector<int>{8, 16, 24, 32, 40})
+    {
+      IndentationMesh mesh;
+      mesh.around = around;
+      table.run(one.name + in_rings, one.problem, mesh);
+    }
+    for (const int around : quick ? std::vector<int>{} : std::vector<int>{8, 12, 16})
+    {
+      IndentationMesh mesh;
+      mesh.around = around;
+      mesh.element = ElementKind::tet10;
+      table.run(one.name + in_rings + " tet10", one.problem, mesh);
     }
   }
   // Mesh after mesh, as a scene has it: stiffness left to the scene, either response.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "indented_block.h"
 #include "soft_tissue_sim/base/timer.h"
-#include "soft_tissue_sim/mesh/generate.h"
 #include "soft_tissue_sim/mesh/mesh_io.h"
 #include "soft_tissue_sim/scene/scene.h"
 #include "turned_surface.h"
@@ -22,18 +22,11 @@ double reduced(const Indentation& problem)
   return problem.young_modulus_pa / (1.0 - problem.poisson_ratio * problem.poisson_ratio);
 }
 
-/** Cells about `around` the origin, on and below z = 0. */
-TetMesh gradedBlock(const IndentationMesh& spec, double reach)
+TetMesh makeBlock(const Indentation& problem, const IndentationMesh& spec)
 {
-  TetMesh mesh = makeBox({2 * spec.cells, 2 * spec.cells, spec.cells}, {2.0, 2.0, 1.0});
-  for (Vec3& p : mesh.nodes)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      p[axis] = reach * std::sinh(spec.growth * (p[axis] - 1.0)) / std::sinh(spec.growth);
-    }
-  }
-  return mesh;
+  const double radius = problem.contactRadius(), reach = problem.block * radius;
+  return spec.around > 0 ? blockAroundEdge(spec.around, radius, reach)
+                         : blockAroundTip(spec.cells, spec.growth, reach);
 }
 
 /** The tool with its tip at its frame's origin. */
@@ -72,7 +65,7 @@ SceneConfig makeScene(const Indentation& problem, const IndentationMesh& mesh,
   tissue.name = "block";
   tissue.element = mesh.element;
   tissue.mesh.file = folder + "/block.msh";
-  saveGmsh(tissue.mesh.file, gradedBlock(mesh, reach));
+  saveGmsh(tissue.mesh.file, makeBlock(problem, mesh));
   tissue.material = {MaterialModel::neo_hookean, problem.young_modulus_pa, problem.poisson_ratio,
                      1000.0};
   tissue.fixed.push_back({Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, -reach * (1.0 - 1e-6))});
@@ -165,8 +158,10 @@ IndentationResult indent(const Indentation& problem, const IndentationMesh& mesh
   const TissueInfo& block = scene.tissues().at(0);
   result.tets = block.rest.tets.size();
   result.nodes = block.rest.nodes.size();
-  result.element_m = problem.block * problem.contactRadius() * std::sinh(mesh.growth / mesh.cells) /
-                     std::sinh(mesh.growth);
+  result.element_m = mesh.around > 0
+                         ? problem.contactRadius() * kEdgeCell / mesh.around
+                         : problem.block * problem.contactRadius() *
+                               std::sinh(mesh.growth / mesh.cells) / std::sinh(mesh.growth);
   result.penetration_m = snapshot.report.max_penetration_m;
   result.seconds = timer.seconds();
   return result;

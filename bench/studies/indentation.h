@@ -34,8 +34,11 @@ struct Indentation
 /** How it is computed. */
 struct IndentationMesh
 {
-  int cells = 12;       ///< from the axis to each side; twice as many across, six elements each
-  double growth = 4.5;  ///< cells grow outwards like sinh(growth u), u going from 0 to 1
+  /** Above 0: the block is round, in rings of cells about the radius of contact, of so many nodes
+   * each (blockAroundEdge). Otherwise it is a box, finest at the tip (blockAroundTip). */
+  int around = 0;
+  int cells = 12;       ///< of the box, from the axis to each side; twice as many across
+  double growth = 4.5;  ///< of its cells outwards
   ElementKind element = ElementKind::tet4;
   Response response = Response::segment;
   double stiffness = 400.0;  ///< kappa, in Young's moduli over the radius of contact
@@ -45,7 +48,7 @@ struct IndentationMesh
 struct IndentationResult
 {
   std::size_t tets = 0, nodes = 0;  ///< quadratic tets count as those they are cut into
-  double element_m = 0.0;           ///< edge of a cell under the tip
+  double element_m = 0.0;           ///< edge of a cell, under the tip or at the edge
   double force = 0.0;               ///< N, along the axis
   double across = 0.0;              ///< N, besides
   double radius_m = 0.0;            ///< of what touches
