@@ -6,7 +6,7 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 8192;
+constexpr Index kGrain = 128;  // nodes per parallel piece
 
 /** Adds a share of each element's mass to each of its vertices, and another to each edge. */
 void addShares(const QuadraticTetMesh& rest, const std::vector<double>& densities, Index first_node,
@@ -40,6 +40,21 @@ double sumOver(const std::vector<NodeRange>& ranges, const Function& f)
     });
   }
   return all;
+}
+
+/** Calls f(i) for all nodes of some ranges. */
+template <typename Function>
+void forNodes(const std::vector<NodeRange>& ranges, const Function& f)
+{
+  for (const NodeRange& range : ranges)
+  {
+    parallelFor(range.end - range.begin, kGrain, [&](Index begin, Index end) {
+      for (Index i = range.begin + begin; i < range.begin + end; ++i)
+      {
+        f(i);
+      }
+    });
+  }
 }
 }  // namespace
 
@@ -100,27 +115,26 @@ double NodalSprings::value(const Points& x)
 
 void NodalSprings::addGradient(const Points& x, Points& gradient)
 {
-  for (const NodeRange& range : nodes_)
-  {
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-      gradient[i] += stiffness_[i] * (x[i] - places_[i]);
-    }
-  }
+  forNodes(nodes_, [&](Index i) { gradient[i] += stiffness_[i] * (x[i] - places_[i]); });
+}
+
+double NodalSprings::valueAndGradient(const Points& x, Points& gradient)
+{
+  return 0.5 * sumOver(nodes_, [&](Index i) {
+           const Vec3 off = x[i] - places_[i], force = stiffness_[i] * off;
+           gradient[i] += force;
+           return force.dot(off);
+         });
 }
 
 void NodalSprings::addHessian(const Points& /*x*/, Curvature /*curvature*/, BlockMatrix& hessian)
 {
-  for (const NodeRange& range : nodes_)
-  {
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-      double* block = hessian.block(hessian.diagonal(i));
-      block[0] += stiffness_[i];
-      block[4] += stiffness_[i];
-      block[8] += stiffness_[i];
-    }
-  }
+  forNodes(nodes_, [&](Index i) {
+    double* block = hessian.block(hessian.diagonal(i));
+    block[0] += stiffness_[i];
+    block[4] += stiffness_[i];
+    block[8] += stiffness_[i];
+  });
 }
 
 bool Inertia::beginStep(Index first, Index count, const StepStart& start,
@@ -154,13 +168,16 @@ double Gravity::value(const Points& x)
 
 void Gravity::addGradient(const Points& /*x*/, Points& gradient)
 {
-  for (const NodeRange& range : nodes_)
-  {
-    for (Index i = range.begin; i < range.end; ++i)
-    {
-      gradient[i] -= masses_[i] * acceleration_;
-    }
-  }
+  forNodes(nodes_, [&](Index i) { gradient[i] -= masses_[i] * acceleration_; });
+}
+
+double Gravity::valueAndGradient(const Points& x, Points& gradient)
+{
+  return -sumOver(nodes_, [&](Index i) {
+    const Vec3 force = masses_[i] * acceleration_;
+    gradient[i] -= force;
+    return force.dot(x[i]);
+  });
 }
 
 double NodalLoads::value(const Points& x)

@@ -3,10 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "element_choice.h"
 #include "soft_tissue_sim/base/error.h"
 #include "soft_tissue_sim/energy/mass_terms.h"
+#include "soft_tissue_sim/geometry/halving_order.h"
 #include "soft_tissue_sim/geometry/triangle_tree.h"
 
 namespace soft_tissue
@@ -164,6 +166,34 @@ TissueInfo infoOf(const SoftBodyConfig& config, TetMesh mesh, const LoadReport& 
   return info;
 }
 
+std::vector<Index> inverse(const std::vector<Index>& numbers)
+{
+  std::vector<Index> places(numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    places[numbers[i]] = static_cast<Index>(i);
+  }
+  return places;
+}
+
+/** With new numbers for all nodes. */
+TetMesh renumbered(const TetMesh& mesh, const std::vector<Index>& numbers)
+{
+  TetMesh result = mesh;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    result.nodes[numbers[i]] = mesh.nodes[i];
+  }
+  for (Tet& tet : result.tets)
+  {
+    for (Index& node : tet)
+    {
+      node = numbers[node];
+    }
+  }
+  return result;
+}
+
 void hold(const SoftBodyConfig& config, const std::string& where, SoftBodyModel& model)
 {
   model.info.fixed_nodes = fixedNodes(config, model.info.rest.nodes, where);
@@ -175,7 +205,8 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
 {
   TissueModel model;
   LoadedTetMesh loaded = loadTetMesh(config.mesh.file, config.mesh.metres_per_unit);
-  model.info = infoOf(config, std::move(loaded.mesh), loaded.report);
+  model.file_node = halvingOrder(loaded.mesh.nodes);
+  model.info = infoOf(config, renumbered(loaded.mesh, inverse(model.file_node)), loaded.report);
   TetMesh& rest = model.info.rest;
   for (std::size_t t = 0; t < rest.tets.size(); ++t)
   {
@@ -193,6 +224,10 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where)
   {
     model.quadratic = withEdgeNodes(rest);
     rest = subdivided(*model.quadratic);
+    for (std::size_t node = model.file_node.size(); node < rest.nodes.size(); ++node)
+    {
+      model.file_node.push_back(static_cast<Index>(node));
+    }
   }
   model.info.surface = extractBoundary(static_cast<Index>(rest.nodes.size()), rest.tets);
   hold(config, where, model);
@@ -221,6 +256,8 @@ SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& wher
   }
   model.info = infoOf(config, {std::move(loaded.surface.nodes), {}, {}}, loaded.report);
   const Points& nodes = model.info.rest.nodes;
+  model.file_node.resize(nodes.size());
+  std::iota(model.file_node.begin(), model.file_node.end(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t)
   {
     const Vec3& a = nodes[triangles[t][0]];
@@ -233,6 +270,23 @@ SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& wher
   model.info.surface = surfaceOf(static_cast<Index>(nodes.size()), triangles);
   hold(config, where, model);
   return model;
+}
+
+TissueInfo inFileOrder(const SoftBodyModel& model)
+{
+  TissueInfo info = model.info;
+  if (info.isMembrane())
+  {
+    return info;
+  }
+  info.rest = renumbered(info.rest, model.file_node);
+  info.surface = extractBoundary(static_cast<Index>(info.rest.nodes.size()), info.rest.tets);
+  for (Index& node : info.fixed_nodes)
+  {
+    node = model.file_node[node];
+  }
+  std::sort(info.fixed_nodes.begin(), info.fixed_nodes.end());
+  return info;
 }
 
 void addMasses(const TissueModel& model, Index first_node, std::vector<double>& masses,

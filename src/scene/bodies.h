@@ -12,10 +12,12 @@
 
 namespace soft_tissue
 {
-/** A soft body as its configuration says, before it has a place among the scene's nodes. */
+/** A soft body as its configuration says, before it has a place among the scene's nodes. Vertices
+ * of tets are numbered along halvingOrder(), for the sake of loops over nodes. */
 struct SoftBodyModel
 {
   TissueInfo info;
+  std::vector<Index> file_node;  ///< N: each node's number in TissueInfo as the scene shows it
   std::vector<std::vector<Index>> moved;  ///< nodes of each SoftBodyConfig::keyframes
 };
 
@@ -40,6 +42,9 @@ TissueModel makeTissue(const TissueConfig& config, const std::string& where);
  * @throws Error for a bad mesh or one with tets, a fixed box without nodes
  */
 SoftBodyModel makeMembrane(const MembraneConfig& config, const std::string& where);
+
+/** What the model knows of its body, with nodes numbered as in the file of its mesh. */
+TissueInfo inFileOrder(const SoftBodyModel& model);
 
 /**
  * Adds its masses, and the masses by which gravity pulls at its nodes, kg.

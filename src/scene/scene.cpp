@@ -94,8 +94,12 @@ void Scene::Impl::setMotion(std::size_t tissue, const Points& positions, const P
     throw Error("tissue " + info.name + ": a position or velocity to set is not finite");
   }
   const Index first = tissues_[tissue].first_node;
-  std::copy(positions.begin(), positions.end(), x_.begin() + first);
-  std::copy(velocities.begin(), velocities.end(), v_.begin() + first);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Index file_node = tissues_[tissue].file_node[i];
+    x_[first + i] = positions[file_node];
+    v_[first + i] = velocities[file_node];
+  }
   std::fill_n(acceleration_.begin() + first, count, Vec3::Zero());
   forgetWay();
 }
@@ -163,10 +167,13 @@ void Scene::Impl::fillSnapshot(Snapshot& snapshot)
   {
     const Tissue& tissue = tissues_[k];
     TissueState& state = snapshot.tissues[k];
-    const auto first = x_.begin() + tissue.first_node;
-    state.positions.assign(first, first + tissue.node_count);
-    const auto first_v = v_.begin() + tissue.first_node;
-    state.velocities.assign(first_v, first_v + tissue.node_count);
+    state.positions.resize(tissue.node_count);
+    state.velocities.resize(tissue.node_count);
+    for (Index i = 0; i < tissue.node_count; ++i)
+    {
+      state.positions[tissue.file_node[i]] = x_[tissue.first_node + i];
+      state.velocities[tissue.file_node[i]] = v_[tissue.first_node + i];
+    }
     state.asleep = asleep_[k] != 0;
     state.evaluations = tissue.evaluations;
     if (config_.outputs.stress && tissue.tets != nullptr)
@@ -199,7 +206,7 @@ const SceneConfig& Scene::config() const
 
 const std::vector<TissueInfo>& Scene::tissues() const
 {
-  return impl_->tissue_info_;
+  return impl_->tissues_in_file_order_;
 }
 
 const std::vector<ToolInfo>& Scene::tools() const

@@ -80,6 +80,7 @@ Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, const SoftBodyM
 {
   const SoftBodyConfig& config = config_.softBody(index);
   tissue_info_.push_back(model.info);
+  tissues_in_file_order_.push_back(inFileOrder(model));
   const TissueInfo& info = tissue_info_.back();
   if (config_.solver.stepper == Stepper::quasi_static && info.fixed_nodes.empty() &&
       model.moved.empty())
@@ -108,6 +109,7 @@ Scene::Impl::Tissue& Scene::Impl::addSoftBody(std::size_t index, const SoftBodyM
     moved_.push_back(std::move(moved));
   }
   tissue.node_count = static_cast<Index>(info.rest.nodes.size());
+  tissue.file_node = model.file_node;
   tissue.short_edge = edgeLength(info, kShortEdges);
   x_.insert(x_.end(), info.rest.nodes.begin(), info.rest.nodes.end());
   masses_.resize(x_.size(), 0.0);

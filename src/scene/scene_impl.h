@@ -54,7 +54,8 @@ class Scene::Impl
   static constexpr int kMaxHalvings = 4;
 
   SceneConfig config_;
-  std::vector<TissueInfo> tissue_info_;
+  std::vector<TissueInfo> tissue_info_;            ///< nodes numbered as in x_
+  std::vector<TissueInfo> tissues_in_file_order_;  ///< the same for those who ask
   std::vector<ToolInfo> tool_info_;
   std::vector<ObstacleInfo> obstacle_info_;
   StepReport report_;
@@ -97,6 +98,7 @@ class Scene::Impl
   {
     Index first_node = 0;
     Index node_count = 0;
+    std::vector<Index> file_node;            ///< see SoftBodyModel
     Adjacency neighbours;                    ///< nodes that elasticity couples
     std::unique_ptr<TissueElasticity> tets;  ///< of a tissue
     std::unique_ptr<EnergyTerm> membrane;    ///< elasticity of a membrane

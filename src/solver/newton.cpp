@@ -91,7 +91,8 @@ NewtonSolver::State NewtonSolver::evaluate(const std::vector<EnergyTerm*>& terms
 {
   State state;
   ++evaluations_;
-  gradient.assign(x.size(), Vec3::Zero());
+  gradient.resize(x.size());
+  forNodes(x.size(), [&](Index i) { gradient[i].setZero(); });
   term_gradient_.resize(x.size(), Vec3::Zero());
   double scale = 0.0;
   for (std::size_t k = 0; k < terms.size(); ++k)
@@ -220,20 +221,14 @@ bool NewtonSolver::endsWithin(double within, NewtonReport& report)
 
 void NewtonSolver::takeDescent()
 {
-  for (std::size_t i = 0; i < gradient_.size(); ++i)
-  {
-    descent_[i] = -gradient_[i];
-  }
+  forNodes(gradient_.size(), [&](Index i) { descent_[i] = -gradient_[i]; });
 }
 
 /** Goes to trial_ and trial_gradient_. */
 NewtonSolver::State NewtonSolver::tryStep(const std::vector<EnergyTerm*>& terms, const Points& x,
                                           double step, std::vector<double>& seconds)
 {
-  for (std::size_t i = 0; i < x.size(); ++i)
-  {
-    trial_[i] = x[i] + step * direction_[i];
-  }
+  forNodes(x.size(), [&](Index i) { trial_[i] = x[i] + step * direction_[i]; });
   return evaluate(terms, trial_, trial_gradient_, seconds);
 }
 

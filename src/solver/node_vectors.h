@@ -7,7 +7,19 @@
 
 namespace soft_tissue
 {
-constexpr Index kNodeGrain = 512;  ///< nodes per parallel piece
+constexpr Index kNodeGrain = 128;  ///< nodes per parallel piece
+
+/** Calls f(i) for all of `count` nodes. */
+template <typename Function>
+void forNodes(std::size_t count, const Function& f)
+{
+  parallelFor(static_cast<Index>(count), kNodeGrain, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+    {
+      f(i);
+    }
+  });
+}
 
 inline double dot(const Points& a, const Points& b)
 {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "coupling_rows.h"
+#include "node_vectors.h"
 #include "outer_rows.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "soft_tissue_sim/solver/linear_solver.h"
@@ -30,28 +31,24 @@ class Conjugator
   LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, int most, Points& d)
   {
     const Index n = a.rows();
-    d.assign(n, Vec3::Zero());
+    d.resize(n);
     if (!loaded_)
     {
       load(a);
     }
-    double scale = 0.0;  // |b| becomes about 1: what is squared below stays within range
-    for (const Vec3& v : b)
-    {
-      scale += v.squaredNorm();
-    }
-    scale = std::sqrt(scale);
+    // |b| becomes about 1: what is squared below stays within range.
+    const double scale = std::sqrt(dot(b, b));
     if (!(scale > 0.0) || !std::isfinite(scale))
     {
+      d.assign(n, Vec3::Zero());
       return {0, 0.0, scale != 0.0, false};
     }
     takeRightSide(b, 1.0 / scale);
     const LinearReport report = iterate(n, tolerance, most);
-    for (Index i = 0; i < n; ++i)
-    {
+    forPlaces([&](Index i) {
       const Vec3 moved(solution_[3 * i], solution_[3 * i + 1], solution_[3 * i + 2]);
       d[nodes_[i]] = scale * moved;
-    }
+    });
     return report;
   }
 
@@ -139,14 +136,14 @@ class Conjugator
     residual_.resize(3 * b.size() + 1);
     direction_.resize(residual_.size());
     image_.resize(residual_.size());
-    solution_.assign(residual_.size(), Real(0));
-    for (std::size_t i = 0; i < b.size(); ++i)
-    {
+    solution_.resize(residual_.size());
+    forPlaces([&](Index i) {
       for (int k = 0; k < 3; ++k)
       {
         residual_[3 * i + k] = static_cast<Real>(scale * b[nodes_[i]][k]);
+        solution_[3 * i + k] = Real(0);
       }
-    }
+    });
   }
 
   LinearReport iterate(Index n, double tolerance, int most)
@@ -213,6 +210,18 @@ class Conjugator
     }
     return {iteration, std::sqrt(now.rr / all), !std::isfinite(now.rr),
             now.rr > enough && iteration == most};
+  }
+
+  /** Calls f(i) for all places of nodes. */
+  template <typename Function>
+  void forPlaces(const Function& f) const
+  {
+    parallelFor(pieceCount(), 1, [&](Index begin, Index end) {
+      for (Index i = pieces_[begin]; i < pieces_[end]; ++i)
+      {
+        f(i);
+      }
+    });
   }
 
   Index pieceCount() const { return static_cast<Index>(pieces_.size()) - 1; }

@@ -23,6 +23,9 @@ constexpr double kOtherwise = 2.0;
 /** Share of the largest diagonal number added to all: nodes in a line have no moment of inertia. */
 constexpr double kShift = 1e-6;
 
+/** Of the coarse matrix's inverse, per parallel piece. */
+constexpr Index kColumns = 24;
+
 using Matrix = Eigen::MatrixXd;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
@@ -343,8 +346,13 @@ void RigidGroups::build(const BlockMatrix& a, const Points& x)
   inverse_.assign(coarse.size(), 0.0);
   if (usable_ && size() > 0)
   {
-    Eigen::Map<Matrix>(inverse_.data(), coarse.rows(), coarse.cols()) =
-        factor.solve(Matrix::Identity(coarse.rows(), coarse.cols()));
+    const auto rows = static_cast<Index>(coarse.rows());
+    Eigen::Map<Matrix> inverse(inverse_.data(), rows, rows);
+    inverse.setIdentity();
+    parallelFor(rows, kColumns, [&](Index begin, Index end) {
+      auto columns = inverse.middleCols(begin, end - begin);
+      factor.solveInPlace(columns);
+    });
   }
 }
 

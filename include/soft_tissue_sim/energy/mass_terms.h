@@ -79,6 +79,7 @@ class NodalSprings : public EnergyTerm
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
+  double valueAndGradient(const Points& x, Points& gradient) override;
   void addHessian(const Points& x, Curvature curvature, BlockMatrix& hessian) override;
 
  protected:
@@ -143,6 +144,7 @@ class Gravity : public EnergyTerm
 
   double value(const Points& x) override;
   void addGradient(const Points& x, Points& gradient) override;
+  double valueAndGradient(const Points& x, Points& gradient) override;
   void addHessian(const Points&, Curvature, BlockMatrix&) override {}
 
  private:

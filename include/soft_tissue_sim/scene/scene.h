@@ -73,7 +73,8 @@ struct Wrench
   Vec3 torque = Vec3::Zero();  ///< N m
 };
 
-/** Everything of one tissue or membrane that does not change while it deforms. */
+/** Everything of one tissue or membrane that does not change while it deforms. Nodes and tets are
+ * in the order of the mesh's file; nodes amid the edges of quadratic tets come after its own. */
 struct TissueInfo
 {
   std::string name;
