@@ -41,7 +41,7 @@ BlockMatrix::BlockMatrix(const Adjacency& neighbours)
 
 void BlockMatrix::setZero()
 {
-  constexpr Index kGrain = 16384;
+  constexpr Index kGrain = 2048;
   parallelFor(static_cast<Index>(values_.size()), kGrain, [&](Index begin, Index end) {
     std::fill(values_.begin() + begin, values_.begin() + end, 0.0);
   });

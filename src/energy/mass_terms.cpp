@@ -6,7 +6,7 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 128;  // nodes per parallel piece
+constexpr Index kGrain = 64;  // nodes per parallel piece
 
 /** Adds a share of each element's mass to each of its vertices, and another to each edge. */
 void addShares(const QuadraticTetMesh& rest, const std::vector<double>& densities, Index first_node,

@@ -7,7 +7,7 @@
 
 namespace soft_tissue
 {
-constexpr Index kNodeGrain = 128;  ///< nodes per parallel piece
+constexpr Index kNodeGrain = 64;  ///< nodes per parallel piece
 
 /** Calls f(i) for all of `count` nodes. */
 template <typename Function>

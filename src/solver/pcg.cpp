@@ -28,10 +28,15 @@ template <typename Real>
 class Conjugator
 {
  public:
-  LinearReport solve(const BlockMatrix& a, const Points& b, double tolerance, int most, Points& d)
+  LinearReport solve(const BlockMatrix& a, const RigidGroups& groups, const Points& b,
+                     double tolerance, int most, Points& d)
   {
     const Index n = a.rows();
     d.resize(n);
+    if (!has_groups_)
+    {
+      takeGroups(groups);
+    }
     if (!loaded_)
     {
       load(a);
@@ -55,9 +60,13 @@ class Conjugator
   /** The matrix is another now. */
   void forgetMatrix() { loaded_ = false; }
 
-  /** Takes the coarse level of the next solves. */
-  void setGroups(const RigidGroups& groups)
+  /** The groups are others now. */
+  void forgetGroups() { has_groups_ = false; }
+
+ private:
+  void takeGroups(const RigidGroups& groups)
   {
+    has_groups_ = true;
     if (nodes_ != groups.nodes())
     {
       offsets_.clear();
@@ -90,7 +99,6 @@ class Conjugator
     groups_ = {pieces_.data(), group_.data(), arms_.data()};
   }
 
- private:
   /** Cuts what there is of nodes up to `end` in equal pieces. */
   void cutUpTo(Index end)
   {
@@ -266,7 +274,7 @@ class Conjugator
     return product;
   }
 
-  bool loaded_ = false;
+  bool loaded_ = false, has_groups_ = false;
   std::vector<Index> nodes_, place_;       ///< the order, and each node's place in it
   std::vector<Index> group_;               ///< by places
   std::vector<Index> pieces_ = {0};        ///< of places: where each begins, and the end
@@ -293,16 +301,15 @@ class Pcg : public LinearSolver
     if (groups_.outdated(a, x))
     {
       groups_.build(a, x);
-      single_.setGroups(groups_);
-      double_.setGroups(groups_);
+      forgetGroups();
     }
   }
 
   LinearReport solve(const Points& b, double tolerance, int most_iterations, Points& d) override
   {
     return tolerance >= kSingleTolerance && !groups_.isUneven()
-               ? single_.solve(*matrix_, b, tolerance, most_iterations, d)
-               : double_.solve(*matrix_, b, tolerance, most_iterations, d);
+               ? single_.solve(*matrix_, groups_, b, tolerance, most_iterations, d)
+               : double_.solve(*matrix_, groups_, b, tolerance, most_iterations, d);
   }
 
   void forget() override { groups_ = RigidGroups(); }
@@ -312,14 +319,19 @@ class Pcg : public LinearSolver
     groups_.exchange(archive);
     if (archive.reading())
     {
-      single_.setGroups(groups_);
-      double_.setGroups(groups_);
+      forgetGroups();
     }
   }
 
   bool isUneven() const override { return groups_.isUneven(); }
 
  private:
+  void forgetGroups()
+  {
+    single_.forgetGroups();
+    double_.forgetGroups();
+  }
+
   const BlockMatrix* matrix_ = nullptr;
   RigidGroups groups_;
   Conjugator<float> single_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "node_vectors.h"
 #include "soft_tissue_sim/base/parallel.h"
 #include "stiff_parts.h"
 
@@ -28,6 +29,19 @@ constexpr Index kColumns = 24;
 
 using Matrix = Eigen::MatrixXd;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+/** The strongest and the weakest hold of some nodes. */
+struct Contrast
+{
+  double most = 0.0, least = std::numeric_limits<double>::infinity();
+
+  Contrast& operator+=(const Contrast& other)
+  {
+    most = std::max(most, other.most);
+    least = std::min(least, other.least);
+    return *this;
+  }
+};
 
 /** Whether blocks of A's pattern couple a node to others. */
 bool isCoupled(const BlockMatrix& a, Index row)
@@ -173,18 +187,20 @@ void RigidGroups::makeGroups(const BlockMatrix& a, const Points& x)
 
 void RigidGroups::measureContrast(const BlockMatrix& a)
 {
-  double most = 0.0, least = std::numeric_limits<double>::infinity();
-  for (Index row = 0; row < a.rows(); ++row)
-  {
-    // What is fixed, or in no element, has a row of the identity alone.
-    if (a.offsets()[row + 1] - a.offsets()[row] > 1 && isCoupled(a, row))
+  const Contrast all = parallelSum(a.rows(), kNodeGrain, [&](Index begin, Index end) {
+    Contrast part;
+    for (Index row = begin; row < end; ++row)
     {
-      const double hold = holdOf(a, row);
-      most = std::max(most, hold);
-      least = std::min(least, hold);
+      // What is fixed, or in no element, has a row of the identity alone.
+      if (a.offsets()[row + 1] - a.offsets()[row] > 1 && isCoupled(a, row))
+      {
+        const double hold = holdOf(a, row);
+        part += {hold, hold};
+      }
     }
-  }
-  contrast_ = most > least && least > 0.0 ? most / least : 1.0;
+    return part;
+  });
+  contrast_ = all.most > all.least && all.least > 0.0 ? all.most / all.least : 1.0;
 }
 
 double RigidGroups::evenness() const
@@ -224,24 +240,29 @@ bool RigidGroups::outdated(const BlockMatrix& a, const Points& x) const
   {
     return true;
   }
-  for (int g = 0; g < size(); ++g)
+  return parallelSum(size(), 1, [&](Index begin, Index end) {
+           int bent = 0;
+           for (Index g = begin; g < end; ++g)
+           {
+             bent += isBent(g, x) ? 1 : 0;
+           }
+           return bent;
+         }) > 0;
+}
+
+/** Whether the group's nodes have moved otherwise than all together since its arms were placed. */
+bool RigidGroups::isBent(Index g, const Points& x) const
+{
+  const double far = kOutdated * evenness() * sizes_[g];
+  Vec3 move = Vec3::Zero();
+  for (Index i = offsets_[g]; i < offsets_[g + 1]; ++i)
   {
-    const double far = kOutdated * evenness() * sizes_[g];
-    Vec3 move = Vec3::Zero();
-    for (Index i = offsets_[g]; i < offsets_[g + 1]; ++i)
-    {
-      move += x[nodes_[i]] - built_at_[nodes_[i]];
-    }
-    move /= offsets_[g + 1] - offsets_[g];
-    for (Index i = offsets_[g]; i < offsets_[g + 1]; ++i)
-    {
-      if ((x[nodes_[i]] - built_at_[nodes_[i]] - move).squaredNorm() > far * far)
-      {
-        return true;
-      }
-    }
+    move += x[nodes_[i]] - built_at_[nodes_[i]];
   }
-  return false;
+  move /= offsets_[g + 1] - offsets_[g];
+  return std::any_of(
+      nodes_.begin() + offsets_[g], nodes_.begin() + offsets_[g + 1],
+      [&](Index node) { return (x[node] - built_at_[node] - move).squaredNorm() > far * far; });
 }
 
 /** coarse += P^T (its blocks) P. */

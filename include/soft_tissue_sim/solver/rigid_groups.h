@@ -51,6 +51,7 @@ class RigidGroups
  private:
   static constexpr double kMostEven = 1e3;  ///< contrast of one material at most
 
+  bool isBent(Index g, const Points& x) const;
   void makeGroups(const BlockMatrix& a, const Points& x);
   void measureContrast(const BlockMatrix& a);
   void placeArms(const Points& x);
