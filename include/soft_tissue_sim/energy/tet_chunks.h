@@ -7,9 +7,11 @@
 namespace soft_tissue
 {
 /**
- * The order tets are worked in: near ones together, a few groups of lanes to a chunk, and chunks
- * coloured so that those of one colour share no node. Chunks of a colour can add to the same arrays
- * at once, and whatever the number of threads each sum is made in the same order.
+ * The order tets are worked in: near ones together, in chunks that are coloured so that those of
+ * one colour share no node. Chunks of a colour can add to the same arrays at once, and whatever the
+ * number of threads each sum is made in the same order. Of a large body the first colour has its
+ * eighths, as halvedParts() says, the next ones what is left of quarters and halves: the first half
+ * of each colour's chunks stays on one side of the body.
  */
 struct TetChunks
 {
