@@ -7,6 +7,7 @@
 
 #include "node_vectors.h"
 #include "soft_tissue_sim/base/parallel.h"
+#include "soft_tissue_sim/geometry/halving_order.h"
 #include "stiff_parts.h"
 
 namespace soft_tissue
@@ -90,33 +91,6 @@ double couplingOf(const BlockMatrix& a)
   return sum;
 }
 
-/** Halves the nodes [begin, end) across their longest side until there are `parts`; appends the
- * ends. */
-void bisect(const Points& x, std::vector<Index>::iterator begin, std::vector<Index>::iterator end,
-            Index parts, std::vector<Index>& sizes)
-{
-  if (parts == 1)
-  {
-    sizes.push_back(static_cast<Index>(end - begin));
-    return;
-  }
-  Vec3 low = x[*begin], high = low;
-  for (auto i = begin; i != end; ++i)
-  {
-    low = low.cwiseMin(x[*i]);
-    high = high.cwiseMax(x[*i]);
-  }
-  int axis = 0;
-  (high - low).maxCoeff(&axis);
-  const Index left = parts / 2;
-  const auto middle = begin + (end - begin) * left / parts;
-  std::nth_element(begin, middle, end, [&](Index i, Index j) {
-    return x[i][axis] < x[j][axis] || (x[i][axis] == x[j][axis] && i < j);
-  });
-  bisect(x, begin, middle, left, sizes);
-  bisect(x, middle, end, parts - left, sizes);
-}
-
 /** P_i^T B P_j for P = [I, -arm x]. */
 Mat6 projected(const Mat3& b, const Vec3& arm_i, const Vec3& arm_j)
 {
@@ -160,7 +134,8 @@ void RigidGroups::makeGroups(const BlockMatrix& a, const Points& x)
   {
     if (counts[k] > 0)
     {
-      bisect(x, bodies[k].begin(), bodies[k].end(), counts[k], sizes);
+      halve(x, bodies[k].begin(), bodies[k].end(), counts[k],
+            [&](auto begin, auto end, Index) { sizes.push_back(static_cast<Index>(end - begin)); });
       nodes_.insert(nodes_.end(), bodies[k].begin(), bodies[k].end());
     }
   }
