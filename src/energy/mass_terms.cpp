@@ -6,8 +6,6 @@ namespace soft_tissue
 {
 namespace
 {
-constexpr Index kGrain = 64;  // nodes per parallel piece
-
 /** Adds a share of each element's mass to each of its vertices, and another to each edge. */
 void addShares(const QuadraticTetMesh& rest, const std::vector<double>& densities, Index first_node,
                double of_vertex, double of_edge, std::vector<double>& masses)
@@ -30,7 +28,7 @@ double sumOver(const std::vector<NodeRange>& ranges, const Function& f)
   double all = 0.0;
   for (const NodeRange& range : ranges)
   {
-    all += parallelSum(range.end - range.begin, kGrain, [&](Index begin, Index end) {
+    all += parallelSum(range.end - range.begin, kNodeGrain, [&](Index begin, Index end) {
       double sum = 0.0;
       for (Index i = range.begin + begin; i < range.begin + end; ++i)
       {
@@ -48,12 +46,7 @@ void forNodes(const std::vector<NodeRange>& ranges, const Function& f)
 {
   for (const NodeRange& range : ranges)
   {
-    parallelFor(range.end - range.begin, kGrain, [&](Index begin, Index end) {
-      for (Index i = range.begin + begin; i < range.begin + end; ++i)
-      {
-        f(i);
-      }
-    });
+    parallelForEach(range.begin, range.end, kNodeGrain, f);
   }
 }
 }  // namespace

@@ -7,18 +7,11 @@
 
 namespace soft_tissue
 {
-constexpr Index kNodeGrain = 64;  ///< nodes per parallel piece
-
 /** Calls f(i) for all of `count` nodes. */
 template <typename Function>
 void forNodes(std::size_t count, const Function& f)
 {
-  parallelFor(static_cast<Index>(count), kNodeGrain, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i)
-    {
-      f(i);
-    }
-  });
+  parallelForEach(0, static_cast<Index>(count), kNodeGrain, f);
 }
 
 inline double dot(const Points& a, const Points& b)

@@ -48,6 +48,21 @@ void parallelFor(Index count, Index grain, const Body& body)
       &context);
 }
 
+/** Calls f(i) for all i of [begin, end), `grain` of them one after the other. */
+template <typename Function>
+void parallelForEach(Index begin, Index end, Index grain, const Function& f)
+{
+  parallelFor(end - begin, grain, [&](Index first, Index last) {
+    for (Index i = begin + first; i < begin + last; ++i)
+    {
+      f(i);
+    }
+  });
+}
+
+/** Grain of loops over nodes: cut alike, each thread keeps to its own nodes in all of them. */
+constexpr Index kNodeGrain = 64;
+
 /**
  * Sum of body(begin, end) over such pieces, numbers or what `{}` makes zero and += adds, in their
  * order: the same bits for any thread count. At most 256 pieces: the grain is enlarged for longer
