@@ -150,8 +150,7 @@ class Scene::Impl
   {
     double mass = 0.0;
     Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero();
-    Vec3 spin = Vec3::Zero();     ///< angular momentum about the centre
-    Mat3 inertia = Mat3::Zero();  ///< moments of inertia about the centre
+    Vec3 spin = Vec3::Zero();  ///< angular momentum about the centre
   };
   struct SavedState
   {
@@ -256,7 +255,9 @@ class Scene::Impl
   void placeMovedNodes(double time_s, Points& x) const;
   template <typename Visit>
   void forEachNodeOf(std::size_t group, const Visit& visit) const;
+  Vec3 centreOf(std::size_t group, const Points& x) const;
   Motion motionOf(std::size_t group, const Points& x) const;
+  Mat3 inertiaOf(std::size_t group, const Vec3& centre) const;
   void findGroups();
   void takeVelocities(double h);
   Vec3 endOf(std::size_t group, const Motion& start, double h) const;

@@ -76,6 +76,17 @@ void Scene::Impl::findGroups()
   }
 }
 
+Vec3 Scene::Impl::centreOf(std::size_t group, const Points& x) const
+{
+  double mass = 0.0;
+  Vec3 centre = Vec3::Zero();
+  forEachNodeOf(group, [&](Index i, std::size_t) {
+    mass += masses_[i];
+    centre += masses_[i] * x[i];
+  });
+  return centre / mass;
+}
+
 Scene::Impl::Motion Scene::Impl::motionOf(std::size_t group, const Points& x) const
 {
   Motion motion;
@@ -87,11 +98,25 @@ Scene::Impl::Motion Scene::Impl::motionOf(std::size_t group, const Points& x) co
   motion.centre /= motion.mass;
   motion.velocity /= motion.mass;
   forEachNodeOf(group, [&](Index i, std::size_t) {
-    const Vec3 arm = x[i] - motion.centre;
-    motion.spin += masses_[i] * arm.cross(v_[i] - motion.velocity);
-    motion.inertia += masses_[i] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+    motion.spin += masses_[i] * (x[i] - motion.centre).cross(v_[i] - motion.velocity);
   });
   return motion;
+}
+
+/** Moments of inertia about a group's centre, kg m^2. */
+Mat3 Scene::Impl::inertiaOf(std::size_t group, const Vec3& centre) const
+{
+  Vec3 squares = Vec3::Zero(), products = Vec3::Zero();
+  forEachNodeOf(group, [&](Index i, std::size_t) {
+    const Vec3 arm = x_[i] - centre;
+    squares += masses_[i] * arm.cwiseProduct(arm);
+    products += masses_[i] * Vec3(arm.y() * arm.z(), arm.z() * arm.x(), arm.x() * arm.y());
+  });
+  Mat3 inertia;
+  inertia << squares.y() + squares.z(), -products.z(), -products.y(),  //
+      -products.z(), squares.z() + squares.x(), -products.x(),         //
+      -products.y(), -products.x(), squares.x() + squares.y();
+  return inertia;
 }
 
 /** Where the momentum of a free group that began like this has its centre at the end, m. */
@@ -104,7 +129,7 @@ Vec3 Scene::Impl::endOf(std::size_t group, const Motion& start, double h) const
     return start.centre + flown;
   }
   // M miss = M (flown - way) - h sum c (way of the node + miss)
-  const Vec3 reached = motionOf(group, x_).centre;
+  const Vec3 reached = centreOf(group, x_);
   Vec3 dragged = Vec3::Zero();
   double heavier = start.mass;
   forEachNodeOf(group, [&](Index i, std::size_t) {
@@ -138,7 +163,7 @@ void Scene::Impl::takeVelocities(double h)
       goal_[k] = motionOf(k, before_);
       goal_[k].centre = endOf(k, goal_[k], h);
       goal_[k].velocity += h * config_.gravity_m_per_s2;
-      const Vec3 off = goal_[k].centre - motionOf(k, x_).centre;
+      const Vec3 off = goal_[k].centre - centreOf(k, x_);
       forEachNodeOf(k, [&](Index i, std::size_t) { x_[i] += off; });
     }
   }
@@ -183,7 +208,8 @@ void Scene::Impl::keepMotion(std::size_t group, double h)
       goal_[group].spin -= h * drags_[i] * (x_[i] - found.centre).cross(v_[i]);
     });
   }
-  const Vec3 turning = angularVelocity(found.inertia, found.spin);
+  const Mat3 inertia = inertiaOf(group, found.centre);
+  const Vec3 turning = angularVelocity(inertia, found.spin);
   const double angle = 0.5 * h * turning.norm();
   const Mat3 on = angle > 0.0 ? Eigen::AngleAxisd(angle, turning.normalized()).toRotationMatrix()
                               : Mat3::Identity();
@@ -196,10 +222,8 @@ void Scene::Impl::keepMotion(std::size_t group, double h)
     v_[i] = found.velocity + missed + (formula_[tissue].carried > 0.0 ? v : on * v);
     acceleration_[i] += missed / formula_[tissue].effective_s;
   });
-  const Motion turned = motionOf(group, x_);
-  const Vec3 missing = angularVelocity(turned.inertia, goal.spin - turned.spin);
-  forEachNodeOf(group,
-                [&](Index i, std::size_t) { v_[i] += missing.cross(x_[i] - turned.centre); });
+  const Vec3 missing = angularVelocity(inertia, goal.spin - motionOf(group, x_).spin);
+  forEachNodeOf(group, [&](Index i, std::size_t) { v_[i] += missing.cross(x_[i] - found.centre); });
 }
 
 }  // namespace soft_tissue
