@@ -92,10 +92,9 @@ void depthOfPoint(benchmark::State& state)
   {
     const Tet& tet = body.mesh.tets[next];
     const Vec3 p = 0.25 * (x[tet[0]] + x[tet[1]] + x[tet[2]] + x[tet[3]]);
-    const auto coords = tetCoordinates(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
     ContactSample sample;
     NearBoundary near;
-    benchmark::DoNotOptimize(depth.evaluate(p, next, *coords, x, *field, near, sample));
+    benchmark::DoNotOptimize(depth.evaluate(p, next, x, *field, near, sample));
     benchmark::DoNotOptimize(sample.depth);
     next = (next + 7919) % static_cast<Index>(body.mesh.tets.size());
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soft_tissue_sim/collision/segment_filter.h"
 #include "soft_tissue_sim/geometry/clip.h"
 #include "soft_tissue_sim/geometry/tet_overlap.h"
 
@@ -67,34 +68,11 @@ void DetectionScene::move(int turn)
 }
 
 std::size_t countPieces(const DetectionBody& first, const DetectionBody& second,
-                        const std::vector<ElementPair>& pairs, SegmentFilter& filter)
+                        std::vector<ElementPair>& pairs, std::vector<ClippedPair>& pieces)
 {
-  filter.clear();
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-  {
-    const Tet& tet = second.mesh.tets[pairs[i].second];
-    if (i == 0 || pairs[i].second != pairs[i - 1].second)  // the pairs of a tet follow each other
-    {
-      filter.setTet(second.x[tet[0]], second.x[tet[1]], second.x[tet[2]], second.x[tet[3]]);
-    }
-    const Edge& edge = first.surface.edges[pairs[i].first];
-    filter.add(static_cast<Index>(i), first.x[edge[0]], first.x[edge[1]]);
-  }
-  std::size_t count = 0;
-  Index tet = -1;
-  std::optional<TetCoordinates> coordinates;
-  for (const Index i : filter.left())
-  {
-    const ElementPair& pair = pairs[i];
-    if (pair.second != tet)
-    {
-      tet = pair.second;
-      const Tet& t = second.mesh.tets[tet];
-      coordinates = tetCoordinates(second.x[t[0]], second.x[t[1]], second.x[t[2]], second.x[t[3]]);
-    }
-    count += coordinates && cuts(first, pair.first, *coordinates) ? 1 : 0;
-  }
-  return count;
+  dropParted(first.edges(), first.x.data(), second.tets(), second.x.data(), 0.0, pairs);
+  clipPairs(first.edges(), first.x.data(), second.tets(), second.x.data(), pairs, pieces);
+  return pieces.size();
 }
 
 std::size_t countPiecesOneByOne(const DetectionBody& first, const DetectionBody& second,

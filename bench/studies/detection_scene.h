@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "soft_tissue_sim/collision/clip_pairs.h"
 #include "soft_tissue_sim/collision/pair_finder.h"
-#include "soft_tissue_sim/collision/segment_filter.h"
 #include "soft_tissue_sim/mesh/topology.h"
 
 namespace soft_tissue::studies
@@ -37,10 +37,11 @@ struct DetectionScene
   void move(int turn);
 };
 
-/** Pieces of the first body's surface edges inside tets of the second, of the pairs in a list. */
+/** Pieces of the first body's surface edges inside tets of the second, of the pairs in a list;
+ * those that a plane parts are dropped from it. */
 std::size_t countPieces(const DetectionBody& first, const DetectionBody& second,
-                        const std::vector<ElementPair>& pairs, SegmentFilter& filter);
-/** The same without the filter. */
+                        std::vector<ElementPair>& pairs, std::vector<ClippedPair>& pieces);
+/** The same, a pair at a time. */
 std::size_t countPiecesOneByOne(const DetectionBody& first, const DetectionBody& second,
                                 const std::vector<ElementPair>& pairs);
 /** Pairs of tets in a list that overlap, each by separating axes. */

@@ -96,7 +96,7 @@ class Contest
     const std::shared_ptr<PairFinder> back =
         makePairFinder(method.method, scene_.b.edges(), scene_.a.tets(), false);
     const auto pairs = std::make_shared<std::array<Pairs, 2>>();
-    const auto filter = std::make_shared<SegmentFilter>();
+    const auto pieces = std::make_shared<std::vector<ClippedPair>>();
     const DetectionBody &a = scene_.a, &b = scene_.second();
     const bool one_body = scene_.one_body;
     add({std::string(method.name) + (both ? ", edges in tets, both ways" : ", edges in tets"),
@@ -109,8 +109,8 @@ class Contest
            return (*pairs)[0].size() + (*pairs)[1].size();
          },
          [=, &a, &b] {
-           return countPieces(a, b, (*pairs)[0], *filter) +
-                  (both ? countPieces(b, a, (*pairs)[1], *filter) : 0);
+           return countPieces(a, b, (*pairs)[0], *pieces) +
+                  (both ? countPieces(b, a, (*pairs)[1], *pieces) : 0);
          },
          [=, &a, &b] {
            return countPiecesOneByOne(a, b, everyPair(a.edges(), b.tets(), a.x, b.x, one_body)) +

@@ -1,36 +1,64 @@
 #include "soft_tissue_sim/collision/segment_filter.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "soft_tissue_sim/geometry/meeting_kernels.h"
+
 namespace soft_tissue
 {
-SegmentFilter::SegmentFilter() : kernels_(&meetingKernels(instructionSet())), origin_(Vec3::Zero())
-{}
-
-void SegmentFilter::clear()
+namespace
 {
-  count_ = 0;
-  left_.clear();
-}
-
-void SegmentFilter::setTet(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+void setPoint(float (&place)[4], const Vec3& p)
 {
-  origin_ = a;
-  setPoint(corners_[0], b);
-  setPoint(corners_[1], c);
-  setPoint(corners_[2], d);
-}
-
-void SegmentFilter::sift()
-{
-  if (count_ == 0)
+  for (int axis = 0; axis < 3; ++axis)
   {
-    return;
+    place[axis] = static_cast<float>(p[axis]);
   }
-  const unsigned used = (1u << count_) - 1u;
-  for (unsigned bits = used & ~kernels_->segments(lanes_); bits != 0; bits &= bits - 1)
+}
+}  // namespace
+
+void dropParted(const ElementSet& segments, const Vec3* x_segments, const ElementSet& tets,
+                const Vec3* x_tets, double margin, std::vector<ElementPair>& pairs)
+{
+  const MeetingKernels& kernels = meetingKernels(instructionSet());
+  const float most = std::nextafter(static_cast<float>(margin), std::numeric_limits<float>::max());
+  TetSegmentLanes lanes = {};
+  const int last = segments.nodes_each - 1;
+  std::size_t left = 0;
+  for (std::size_t begin = 0; begin < pairs.size(); begin += kMeetingLanes)
   {
-    left_.push_back(numbers_[__builtin_ctz(bits)]);
+    const int used = static_cast<int>(std::min<std::size_t>(kMeetingLanes, pairs.size() - begin));
+    for (int lane = 0; lane < used; ++lane)
+    {
+      const ElementPair& pair = pairs[begin + lane];
+      const bool again = lane > 0 && pair.second == pairs[begin + lane - 1].second;
+      const Index* const tet = tets.nodes + 4 * static_cast<std::size_t>(pair.second);
+      const Index* const ends =
+          segments.nodes + segments.nodes_each * static_cast<std::size_t>(pair.first);
+      const Vec3& origin = x_tets[tet[0]];
+      for (int k = 0; k < 3; ++k)
+      {
+        if (again)
+        {
+          std::memcpy(lanes.tet[k][lane], lanes.tet[k][lane - 1], sizeof(lanes.tet[k][lane]));
+          continue;
+        }
+        setPoint(lanes.tet[k][lane], x_tets[tet[k + 1]] - origin);
+      }
+      setPoint(lanes.ends[0][lane], x_segments[ends[0]] - origin);
+      setPoint(lanes.ends[1][lane], x_segments[ends[last]] - origin);
+    }
+    const unsigned parted = kernels.segments(lanes, most);
+    for (int lane = 0; lane < used; ++lane)
+    {
+      pairs[left] = pairs[begin + lane];
+      left += (parted >> lane & 1u) == 0 ? 1 : 0;
+    }
   }
-  count_ = 0;
+  pairs.resize(left);
 }
 
 }  // namespace soft_tissue

@@ -118,7 +118,7 @@ void ContactTerm::setStiffening(double factor)
 
 void ContactTerm::forget()
 {
-  forgetField();
+  forgetPlaces();
   setStiffening(1.0);
   friction_->forget();
 }

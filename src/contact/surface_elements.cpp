@@ -51,6 +51,27 @@ void addNode(Index row, double weight, ContactSample& sample, int first)
 }
 }  // namespace
 
+std::vector<Index> numbersOf(const std::vector<SurfaceElement>& elements, bool edges)
+{
+  std::vector<Index> numbers;
+  for (const SurfaceElement& element : elements)
+  {
+    numbers.insert(numbers.end(), element.nodes.begin(), element.nodes.begin() + (edges ? 2 : 1));
+  }
+  return numbers;
+}
+
+ElementSet elementSet(const std::vector<Index>& numbers, bool edges)
+{
+  const int each = edges ? 2 : 1;
+  return {numbers.data(), each, static_cast<Index>(numbers.size()) / each};
+}
+
+ElementSet tetsOf(const TissueBody& body)
+{
+  return {body.tets->data()->data(), 4, static_cast<Index>(body.tets->size())};
+}
+
 void addNodes(const TissueBody& body, const SurfaceElement& element, double parameter,
               ContactSample& sample)
 {

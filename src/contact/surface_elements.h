@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "soft_tissue_sim/collision/pair_finder.h"
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/contact_term.h"
 #include "soft_tissue_sim/contact/tissue_body.h"
@@ -17,6 +18,15 @@ struct SurfaceElement
   double per_area = 1.0;         ///< what the law counts in place of the area, over the area
   int cells = 1;                 ///< equal parts an edge is cut into for its quadrature
 };
+
+/** The nodes that elements have, one after the other: two of an edge, one of a point. */
+std::vector<Index> numbersOf(const std::vector<SurfaceElement>& elements, bool edges);
+
+/** Those elements by their numbersOf(), which stay. */
+ElementSet elementSet(const std::vector<Index>& numbers, bool edges);
+
+/** The tets of a body. */
+ElementSet tetsOf(const TissueBody& body);
 
 /** Adds the nodes that a body's element has its point at a parameter from, with their weights. */
 void addNodes(const TissueBody& body, const SurfaceElement& element, double parameter,

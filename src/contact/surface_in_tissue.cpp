@@ -3,14 +3,11 @@
 #include <algorithm>
 
 #include "moving_ends.h"
-#include "soft_tissue_sim/geometry/clip.h"
 
 namespace soft_tissue
 {
 namespace
 {
-/** Barycentric weights this far below zero count as inside: shared faces leave no gap. */
-constexpr double kInside = -1e-12;
 /** Pieces of an edge with less than this share of it between them are one stretch. */
 constexpr double kTouching = 1e-9;
 /** Of a quadrature rule and both ends. */
@@ -27,13 +24,13 @@ SurfaceInTissue::SurfaceInTissue(const TissueBody& host, const Intruder& intrude
       depth_(host, options.closest_feature)
 {}
 
-bool SurfaceInTissue::findHosts(const std::vector<SurfaceElement>& elements, const Points& nodes,
-                                const Points& x, const std::vector<ElementPair>& candidates)
+bool SurfaceInTissue::findHosts(const std::vector<SurfaceElement>& elements,
+                                const ElementSet& numbers, const Points& nodes, const Points& x,
+                                const std::vector<ElementPair>& candidates)
 {
   elements_ = &elements;
   nodes_ = &nodes;
   x_ = &x;
-  hosts_.clear();
   for (const Index element : held_)
   {
     point_host_[element] = -1;
@@ -41,109 +38,22 @@ bool SurfaceInTissue::findHosts(const std::vector<SurfaceElement>& elements, con
   held_.clear();
   point_host_.resize(elements.size(), -1);
   edge_hosts_.reset(static_cast<Index>(elements.size()));
-  dropMisses(candidates);
-  Index t = -1;
-  bool flat = false;  // a flat tet holds nothing
-  for (const Index i : filter_.left())
+  clipPairs(numbers, nodes.data(), tetsOf(host_), x.data(), candidates, clipped_);
+  for (const ClippedPair& clipped : clipped_)
   {
-    if (candidates[i].second != t)
+    const Index element = clipped.pair.first;
+    if (point_host_[element] < 0)
     {
-      t = candidates[i].second;
-      const Tet& tet = (*host_.tets)[t];
-      const auto coords = tetCoordinates(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
-      flat = !coords;
-      if (!flat)
-      {
-        hosts_.push_back({t, *coords});
-      }
+      point_host_[element] = clipped.pair.second;
+      held_.push_back(element);
     }
-    if (!flat)
+    if (segments_)
     {
-      hostElement(candidates[i].first, static_cast<Index>(hosts_.size()) - 1);
+      edge_hosts_.add(element, clipped.pair.second, clipped.where);
     }
   }
   std::sort(held_.begin(), held_.end());
   return !held_.empty();
-}
-
-// First those whose boxes miss, without a branch that few could foresee; then segments and tets.
-void SurfaceInTissue::dropMisses(const std::vector<ElementPair>& candidates)
-{
-  const Points& x = *x_;
-  boxes_.resize(elements_->size());
-  boxed_in_.resize(elements_->size(), 0);
-  ++call_;
-  near_pairs_.resize(candidates.size());
-  Index* next = near_pairs_.data();
-  for (std::size_t i = 0; i < candidates.size();)
-  {
-    const Index t = candidates[i].second;
-    const Tet& tet = (*host_.tets)[t];
-    Vec3 low = x[tet[0]], high = low;
-    for (int k = 1; k < 4; ++k)
-    {
-      low = low.cwiseMin(x[tet[k]]);
-      high = high.cwiseMax(x[tet[k]]);
-    }
-    const BoxEnds box = {{-high[0], -high[1], -high[2], low[0], low[1], low[2]}};
-    for (; i < candidates.size() && candidates[i].second == t; ++i)
-    {
-      *next = static_cast<Index>(i);
-      next += overlap(boxOf(candidates[i].first), box) ? 1 : 0;
-    }
-  }
-  near_pairs_.resize(next - near_pairs_.data());
-  filter_.clear();
-  Index t = -1;
-  for (const Index i : near_pairs_)
-  {
-    if (candidates[i].second != t)
-    {
-      t = candidates[i].second;
-      const Tet& tet = (*host_.tets)[t];
-      filter_.setTet(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
-    }
-    const Index element = candidates[i].first;
-    filter_.add(i, end(element, 0), end(element, 1));
-  }
-}
-
-/** Of an element, made once a call. */
-const BoxEnds& SurfaceInTissue::boxOf(Index element)
-{
-  BoxEnds& box = boxes_[element];
-  if (boxed_in_[element] != call_)
-  {
-    boxed_in_[element] = call_;
-    const Vec3 low = end(element, 0).cwiseMin(end(element, 1));
-    const Vec3 high = end(element, 0).cwiseMax(end(element, 1));
-    box = {{low[0], low[1], low[2], -high[0], -high[1], -high[2]}};
-  }
-  return box;
-}
-
-void SurfaceInTissue::hostElement(Index element, Index number)
-{
-  const TetCoordinates& coords = hosts_[number].coords;
-  if (!segments_)
-  {
-    if (point_host_[element] < 0 && coords.weights(end(element, 0)).minCoeff() >= kInside)
-    {
-      point_host_[element] = number;
-      held_.push_back(element);
-    }
-    return;
-  }
-  const auto piece = clipSegment(end(element, 0), end(element, 1), coords);
-  if (piece && piece->lambda1 < piece->lambda2)
-  {
-    if (point_host_[element] < 0)
-    {
-      point_host_[element] = number;
-      held_.push_back(element);
-    }
-    edge_hosts_.add(element, number, {piece->lambda1, piece->lambda2});
-  }
 }
 
 void SurfaceInTissue::addSamples(const DistanceField& field, std::vector<ContactSample>& samples)
@@ -176,8 +86,7 @@ void SurfaceInTissue::addPoint(Index element, const DistanceField& field,
                                std::vector<ContactSample>& samples)
 {
   ContactSample sample;
-  if (measure({element, 0.0, &hosts_[point_host_[element]], (*elements_)[element].area, 0}, field,
-              sample))
+  if (measure({element, 0.0, point_host_[element], (*elements_)[element].area, 0}, field, sample))
   {
     samples.push_back(sample);
   }
@@ -192,8 +101,8 @@ void SurfaceInTissue::addPieces(Index edge, const DistanceField& field,
   {
     forEachPoint(kGauss2, piece.where, [&](double parameter, double weight) {
       ContactSample sample;
-      if (measure({edge, parameter, &hosts_[piece.host], weight * (*elements_)[edge].area, 0},
-                  field, sample))
+      if (measure({edge, parameter, piece.host, weight * (*elements_)[edge].area, 0}, field,
+                  sample))
       {
         samples.push_back(sample);
       }
@@ -225,8 +134,7 @@ void SurfaceInTissue::addStretches(Index edge, const DistanceField& field,
       {
         ++at;
       }
-      const Host& host = hosts_[pieces[at].host];
-      return measure({edge, parameter, &host, weight * area, number++}, field, sample);
+      return measure({edge, parameter, pieces[at].host, weight * area, number++}, field, sample);
     };
     const auto cellOf = [&](double parameter) { return static_cast<int>(parameter * cells); };
     double begin = inside.begin;
@@ -258,7 +166,6 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field, Co
 {
   const Vec3& a = end(place.element, 0);
   const Vec3 p = a + place.parameter * (end(place.element, 1) - a);
-  const Host& host = *place.host;
   if (!(place.area > 0.0))
   {
     return false;
@@ -266,9 +173,9 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field, Co
   NearBoundary& near = near_.of(place.element, place.number);
   near.hint = near.hint < 0 ? hint_ : near.hint;
   const bool found = intruder_.rest == nullptr
-                         ? depth_.evaluate(p, host.tet, host.coords, *x_, field, near, sample)
-                         : depth_.evaluateSelf(p, host.tet, host.coords, *x_, field,
-                                               *intruder_.rest, restPoint(place), near, sample);
+                         ? depth_.evaluate(p, place.host, *x_, field, near, sample)
+                         : depth_.evaluateSelf(p, place.host, *x_, field, *intruder_.rest,
+                                               restPoint(place), near, sample);
   hint_ = near.hint;
   if (!found)
   {
@@ -278,7 +185,7 @@ bool SurfaceInTissue::measure(const Place& place, const DistanceField& field, Co
   {
     addNodes(*intruder_.body, (*elements_)[place.element], place.parameter, sample);
   }
-  sample.host = host.tet;
+  sample.host = place.host;
   sample.element = place.element;
   sample.side = intruder_.side;
   sample.area = intruder_.share * place.area;

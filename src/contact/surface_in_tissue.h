@@ -1,14 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "near_boundaries.h"
-#include "soft_tissue_sim/collision/box_ends.h"
-#include "soft_tissue_sim/collision/pair_finder.h"
+#include "soft_tissue_sim/collision/clip_pairs.h"
 #include "soft_tissue_sim/collision/segment_cover.h"
-#include "soft_tissue_sim/collision/segment_filter.h"
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/contact_term.h"
 #include "soft_tissue_sim/contact/tissue_depth.h"
@@ -39,13 +36,14 @@ class SurfaceInTissue
   /**
    * Finds the tets that hold points or parts of edges.
    * @param elements    of the surface; they and their nodes stay until samples are taken
+   * @param numbers     of their nodes, see numbersOf()
    * @param nodes       what elements number, m, world
    * @param x           positions of the host alone, m
    * @param candidates  elements and tets that may meet, ascending by tet
    * @return whether there are any
    */
-  bool findHosts(const std::vector<SurfaceElement>& elements, const Points& nodes, const Points& x,
-                 const std::vector<ElementPair>& candidates);
+  bool findHosts(const std::vector<SurfaceElement>& elements, const ElementSet& numbers,
+                 const Points& nodes, const Points& x, const std::vector<ElementPair>& candidates);
 
   /** Appends the samples of what findHosts() found. */
   void addSamples(const DistanceField& field, std::vector<ContactSample>& samples);
@@ -60,24 +58,16 @@ class SurfaceInTissue
   }
 
  private:
-  struct Host
-  {
-    Index tet;
-    TetCoordinates coords;
-  };
   /** A tet, a point of an element in it, and the area it stands for. */
   struct Place
   {
     Index element;
     double parameter;
-    const Host* host;
+    Index host;
     double area;
     int number;  ///< of the point on its element, the same when it is sampled again
   };
 
-  void dropMisses(const std::vector<ElementPair>& candidates);
-  const BoxEnds& boxOf(Index element);
-  void hostElement(Index element, Index number);
   void addPoint(Index element, const DistanceField& field, std::vector<ContactSample>& samples);
   void addPieces(Index edge, const DistanceField& field, std::vector<ContactSample>& samples);
   void addStretches(Index edge, const DistanceField& field, std::vector<ContactSample>& samples);
@@ -94,17 +84,12 @@ class SurfaceInTissue
   const std::vector<SurfaceElement>* elements_ = nullptr;
   const Points* nodes_ = nullptr;
   const Points* x_ = nullptr;
-  std::vector<BoxEnds> boxes_;           ///< of elements
-  std::vector<std::uint32_t> boxed_in_;  ///< the call that each was made in
-  std::uint32_t call_ = 0;
-  std::vector<Index> near_pairs_;  ///< places of candidates whose boxes overlap
-  SegmentFilter filter_;           ///< of those, by their places
-  std::vector<Host> hosts_;        ///< tets that hold something
-  std::vector<Index> point_host_;  ///< per point: place in hosts_, or -1
-  std::vector<Index> held_;        ///< points and edges that have a host, ascending
-  SegmentCover edge_hosts_;        ///< per edge: its pieces in hosts_
-  NearBoundaries near_;            ///< per sample
-  Index hint_ = -1;                ///< boundary triangle nearest to the last sample of the element
+  std::vector<ClippedPair> clipped_;  ///< what tets hold
+  std::vector<Index> point_host_;     ///< per point: a tet, or -1
+  std::vector<Index> held_;           ///< points and edges that have a host, ascending
+  SegmentCover edge_hosts_;           ///< per edge: its pieces in tets
+  NearBoundaries near_;               ///< per sample
+  Index hint_ = -1;  ///< boundary triangle nearest to the last sample of the element
 };
 
 }  // namespace soft_tissue

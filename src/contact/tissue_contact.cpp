@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -16,9 +18,17 @@ namespace soft_tissue
 {
 namespace
 {
-/** How far bodies may be from where they were expected before candidates are looked for anew, in
- * short edges; to this comes how far they were last step, up to a whole edge. */
-constexpr double kMarginOfEdge = 0.25, kMostOff = 0.75;
+/** Candidates are looked for with a margin that lasts for so many steps of the motion since the
+ * last time, but not a smaller one than this or a larger one than that, in short edges of both
+ * bodies: what is gained by looking seldom is lost with too many candidates. */
+constexpr double kStepsAhead = 8.0, kLeastMargin = 0.02, kMostMargin = 0.25;
+/** Bodies are not watched in a step only if nothing is nearer than this at its end. */
+constexpr double kWatched = 0.25;
+/** Candidates are looked for anew where their margin is so many times what it had to be. */
+constexpr double kTooWide = 4.0;
+/** A step is taken to go so many times as much farther than it is expected to as the last ones, of
+ * which each counts so much less than the next; up to so many short edges. */
+constexpr double kFarther = 2.0, kFades = 0.5, kMostFarther = 0.75;
 
 const TissueBody& withRest(const TissueBody& body)
 {
@@ -36,9 +46,12 @@ struct TissueContact::Parts
   std::vector<TissueInTissue> sides;  ///< of one body the one, of two: first in second, and back,
                                       ///< if it can
   std::array<Points, 2> start;        ///< of bodies, at the start of the step
-  std::array<Points, 2> expected;     ///< and where they were expected to go
-  double margin = 0.0;  ///< how much nearer bodies may come before candidates are too few, m
-  bool near = false;    ///< there were candidates when the step began
+  std::array<Points, 2> looked_at;    ///< where they were when candidates were looked for
+  double margin = 0.0;    ///< how much they may move in all before candidates are too few, m
+  double expected = 0.0;  ///< how much they were expected to have moved by the end of the step, m
+  double farther = 0.0;   ///< how much more it has been, m
+  int steps = 0;          ///< begun since candidates were looked for
+  bool near = false;      ///< there are candidates, or there may be within the step
 
   /** The body that has the tets of a side. */
   std::size_t host(std::size_t side) const { return bodies.size() - 1 - side; }
@@ -133,29 +146,105 @@ void TissueContact::lagPlaces(const Points& x, const Points& towards, bool refre
 {
   Parts& p = *parts_;
   const ScopedTimer timer(times().detect);
-  p.margin = 0.0;
   takeBodies(x);
   for (std::size_t k = 0; k < p.bodies.size(); ++k)
   {
-    const double off = p.start[k].empty() ? 0.0 : largestMotion(p.expected[k], body(k));
-    const double edge = p.bodies[k].short_edge;
-    p.margin += kMarginOfEdge * edge + std::min(off, kMostOff * edge);
     p.start[k] = body(k);
   }
+  beginSides(refresh);
   takeBodies(towards);
-  for (std::size_t k = 0; k < p.bodies.size(); ++k)
-  {
-    p.expected[k] = body(k);
-  }
   forgetSamples();
+  ++p.steps;
+  p.expected = motionSinceLook();
+  const double room = kFarther * p.farther;
+  p.farther *= kFades;
+  const double wanted = marginFor(kStepsAhead * p.expected / p.steps, room);
+  const double watched = kWatched * shortEdges();
+  p.near = haveCandidates();
+  const bool too_wide = p.near && p.steps > kStepsAhead && kTooWide * wanted < p.margin;
+  if (!(p.expected + room + (p.near ? 0.0 : watched) <= p.margin) || too_wide)
+  {
+    lookAround(wanted);
+    p.near = haveCandidates();
+  }
+  if (!p.near && p.margin < p.expected + watched)  // there is little to find: it may be looked far
+  {
+    lookAround(2.0 * watched);
+    p.near = haveCandidates();
+  }
+}
+
+void TissueContact::beginSides(bool refresh)
+{
+  Parts& p = *parts_;
   for (std::size_t k = 0; k < p.sides.size(); ++k)
   {
-    p.sides[k].beginStep({&p.start[p.intruder(k)], &p.start[p.host(k)], &p.expected[p.intruder(k)],
-                          &p.expected[p.host(k)]},
-                         p.margin, refresh);
+    p.sides[k].beginStep({&p.start[p.intruder(k)], &p.start[p.host(k)]}, refresh);
   }
-  p.near = std::any_of(p.sides.begin(), p.sides.end(),
-                       [](const TissueInTissue& side) { return side.hasCandidates(); });
+}
+
+/** Of both bodies, m; infinite before the first look. */
+double TissueContact::motionSinceLook() const
+{
+  const Parts& p = *parts_;
+  double motion = 0.0;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k)
+  {
+    motion += p.looked_at[k].empty() ? std::numeric_limits<double>::infinity()
+                                     : largestMotion(p.looked_at[k], body(k));
+  }
+  return motion;
+}
+
+/** What to look for candidates with, m.
+ * @param ahead  motion that it is to last for
+ * @param room   beside that */
+double TissueContact::marginFor(double ahead, double room) const
+{
+  const double edges = shortEdges();
+  return std::clamp(std::isfinite(ahead) ? ahead : 0.0, kLeastMargin * edges, kMostMargin * edges) +
+         std::min(room, kMostFarther * edges);
+}
+
+/** Of both bodies, m. */
+double TissueContact::shortEdges() const
+{
+  double edges = 0.0;
+  for (const TissueBody& body : parts_->bodies)
+  {
+    edges += body.short_edge;
+  }
+  return edges;
+}
+
+bool TissueContact::haveCandidates() const
+{
+  return std::any_of(parts_->sides.begin(), parts_->sides.end(),
+                     [](const TissueInTissue& side) { return side.hasCandidates(); });
+}
+
+/** For candidates where bodies are now. */
+void TissueContact::lookAround(double margin)
+{
+  Parts& p = *parts_;
+  for (std::size_t k = 0; k < p.bodies.size(); ++k)
+  {
+    p.looked_at[k] = body(k);
+  }
+  p.margin = margin;
+  p.expected = 0.0;
+  p.steps = 0;
+  lookAgain();
+}
+
+/** The same look once more. */
+void TissueContact::lookAgain()
+{
+  Parts& p = *parts_;
+  for (std::size_t k = 0; k < p.sides.size(); ++k)
+  {
+    p.sides[k].lookAround({&p.looked_at[p.intruder(k)], &p.looked_at[p.host(k)]}, p.margin);
+  }
 }
 
 // The energy stays the same function of x whatever the candidates: areas and depths are those of
@@ -164,19 +253,11 @@ void TissueContact::collect(std::vector<ContactSample>& samples)
 {
   Parts& p = *parts_;
   Timer timer;
-  double motion = 0.0;
-  for (std::size_t k = 0; k < p.bodies.size(); ++k)
+  const double motion = motionSinceLook();
+  p.farther = std::max(p.farther, motion - p.expected);
+  if (!(motion <= p.margin))
   {
-    motion += largestMotion(p.expected[k], body(k));
-  }
-  if (motion > p.margin)
-  {
-    for (std::size_t k = 0; k < p.bodies.size(); ++k)
-    {
-      p.expected[k] = body(k);
-    }
-    std::for_each(p.sides.begin(), p.sides.end(),
-                  [&](TissueInTissue& side) { side.lookAround(p.margin); });
+    lookAround(marginFor(kFarther * motion, 0.0));
   }
   for (std::size_t k = 0; k < p.sides.size(); ++k)
   {
@@ -227,28 +308,31 @@ void TissueContact::exchangePlaces(StateArchive& archive)
   for (std::size_t k = 0; k < p.bodies.size(); ++k)
   {
     archive.list(p.start[k]);
-    archive.list(p.expected[k]);
+    archive.list(p.looked_at[k]);
   }
   archive.value(p.margin);
+  archive.value(p.expected);
+  archive.value(p.farther);
+  archive.value(p.steps);
   archive.value(p.near);
-  for (std::size_t k = 0; k < p.sides.size(); ++k)
+  if (archive.reading() && !p.start[0].empty())
   {
-    if (archive.reading() && !p.start[0].empty())
-    {
-      p.sides[k].beginStep({&p.start[p.intruder(k)], &p.start[p.host(k)],
-                            &p.expected[p.intruder(k)], &p.expected[p.host(k)]},
-                           p.margin, false);
-    }
-    p.sides[k].exchange(archive);
+    beginSides(false);
+    lookAgain();
+  }
+  for (TissueInTissue& side : p.sides)
+  {
+    side.exchange(archive);
   }
 }
 
-void TissueContact::forgetField()
+void TissueContact::forgetPlaces()
 {
   for (TissueInTissue& side : parts_->sides)
   {
     side.field().forget();
   }
+  parts_->looked_at = {};
 }
 
 }  // namespace soft_tissue

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "body_motion.h"
 #include "soft_tissue_sim/geometry/closest_point.h"
 
 namespace soft_tissue
@@ -46,33 +47,6 @@ constexpr double kListed = 0.25;
 constexpr double kSlid = 0.05;
 /** Of a list's radius, or of a bound: rounding of what is compared with it. */
 constexpr double kRounding = 1e-9;
-/** Of coordinates: rounding where they are shifted. */
-constexpr double kShiftRounding = 1e-14;
-
-/** From some nodes' places, in their order, to those that x has of all nodes. */
-NodeMotion motionBetween(const Points& from, const Points& x, const std::vector<Index>& nodes)
-{
-  NodeMotion motion;
-  for (std::size_t i = 0; i < from.size(); ++i)
-  {
-    motion.shift += x[nodes[i]] - from[i];
-  }
-  motion.shift /= static_cast<double>(std::max<std::size_t>(from.size(), 1));
-  double squared = 0.0, largest = 0.0;
-  bool finite = true;
-  for (std::size_t i = 0; i < from.size(); ++i)
-  {
-    const double off = (x[nodes[i]] - from[i] - motion.shift).squaredNorm();
-    finite = finite && std::isfinite(off);
-    squared = std::max(squared, off);
-    largest = std::max(largest, from[i].squaredNorm());
-  }
-  const double shifted = motion.shift == Vec3::Zero()
-                             ? 0.0
-                             : kShiftRounding * (std::sqrt(largest) + motion.shift.norm());
-  motion.rest = finite ? std::sqrt(squared) + shifted : std::numeric_limits<double>::infinity();
-  return motion;
-}
 
 int nearestCorner(const Vec3& p, const Tet& tet, const Points& x)
 {
@@ -105,7 +79,7 @@ void TissueDepth::prepare(const Points& x)
     return;
   }
   travelTo(x);
-  motion_ = motionBetween(tree_nodes_, x, tissue_.surface->nodes);
+  motion_ = motionBetween(tree_nodes_, travel_.nodes);
   if (!tree_.empty() && motion_.rest <= kStale * tissue_.short_edge)
   {
     return;
@@ -125,8 +99,12 @@ void TissueDepth::prepare(const Points& x)
 
 void TissueDepth::travelTo(const Points& x)
 {
-  const std::vector<Index>& nodes = tissue_.surface->nodes;
-  const NodeMotion step = motionBetween(travel_.nodes, x, nodes);
+  now_.clear();
+  for (const Index node : tissue_.surface->nodes)
+  {
+    now_.push_back(x[node]);
+  }
+  const NodeMotion step = motionBetween(travel_.nodes, now_);
   travel_.shift += step.shift;
   travel_.most += step.rest;
   if (!(travel_.most < kFarthestTravel && travel_.shift.squaredNorm() < kFarthestTravel))
@@ -135,11 +113,7 @@ void TissueDepth::travelTo(const Points& x)
     travel_.shift.setZero();
     travel_.most = 0.0;
   }
-  travel_.nodes.resize(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-  {
-    travel_.nodes[i] = x[nodes[i]];
-  }
+  travel_.nodes.swap(now_);
 }
 
 // Of triangles equally near the tree decides, which keeps the shape it was built with.
@@ -167,14 +141,13 @@ void TissueDepth::exchange(StateArchive& archive)
   }
 }
 
-bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
-                           const DistanceField& field, NearBoundary& near,
-                           ContactSample& sample) const
+bool TissueDepth::evaluate(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                           NearBoundary& near, ContactSample& sample) const
 {
   sample.position = p;
   if (!closest_feature_)
   {
-    return interpolate(p, (*tissue_.tets)[tet], coords, field, sample);
+    return interpolate(p, tet, x, field, sample);
   }
   const auto any = [](Index) { return true; };
   TriangleTree::Nearest found = onOwnTriangle(p, tet, x, any);
@@ -192,16 +165,22 @@ bool TissueDepth::evaluate(const Vec3& p, Index tet, const TetCoordinates& coord
   return takeFeature(p, found, x, sample);
 }
 
-bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& coords,
-                               const Points& x, const DistanceField& field, const Points& rest,
-                               const Vec3& rest_of, NearBoundary& near, ContactSample& sample) const
+bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const Points& x,
+                               const DistanceField& field, const Points& rest, const Vec3& rest_of,
+                               NearBoundary& near, ContactSample& sample) const
 {
+  sample.position = p;
   if (!closest_feature_)
   {
-    return evaluate(p, tet, coords, x, field, near, sample);
+    return interpolate(p, tet, x, field, sample);
+  }
+  const auto coords = coordinates(tet, x);
+  if (!coords)
+  {
+    return false;
   }
   const Tet& nodes = (*tissue_.tets)[tet];
-  const Eigen::Vector4d weights = coords.weights(p);
+  const Eigen::Vector4d weights = coords->weights(p);
   Vec3 place = Vec3::Zero();
   for (int k = 0; k < 4; ++k)
   {
@@ -214,7 +193,6 @@ bool TissueDepth::evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& c
     return Vec3((rest[t[0]] + rest[t[1]] + rest[t[2]]) / 3.0);
   };
   const auto onThisSide = [&](Index i) { return apart.dot(centre(i)) <= halfway; };
-  sample.position = p;
   TriangleTree::Nearest found = onOwnTriangle(p, tet, x, onThisSide);
   const double slid = kSlid * tissue_.short_edge;
   if (found.triangle < 0 &&
@@ -250,20 +228,32 @@ void TissueDepth::remember(const Vec3& p, NearBoundary& near) const
   near.travel = travel_.number;
 }
 
-bool TissueDepth::interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,
-                              const DistanceField& field, ContactSample& sample) const
+std::optional<TetCoordinates> TissueDepth::coordinates(Index tet, const Points& x) const
 {
-  const Eigen::Vector4d weights = coords.weights(p);
+  const Tet& nodes = (*tissue_.tets)[tet];
+  return tetCoordinates(x[nodes[0]], x[nodes[1]], x[nodes[2]], x[nodes[3]]);
+}
+
+bool TissueDepth::interpolate(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                              ContactSample& sample) const
+{
+  const auto coords = coordinates(tet, x);
+  if (!coords)
+  {
+    return false;
+  }
+  const Tet& nodes = (*tissue_.tets)[tet];
+  const Eigen::Vector4d weights = coords->weights(p);
   Eigen::Vector4d depth;
   sample.count = 4;
   for (int k = 0; k < 4; ++k)
   {
-    depth[k] = field.depth()[tet[k]];
-    sample.node[k] = tissue_.first_node + tet[k];
+    depth[k] = field.depth()[nodes[k]];
+    sample.node[k] = tissue_.first_node + nodes[k];
     sample.coefficient[k] = -weights[k];
   }
   sample.depth = weights.dot(depth);
-  sample.gradient = coords.gradients * depth;
+  sample.gradient = coords->gradients * depth;
   return true;
 }
 

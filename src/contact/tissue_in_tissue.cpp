@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "soft_tissue_sim/collision/segment_filter.h"
+
 namespace soft_tissue
 {
 namespace
@@ -9,16 +11,6 @@ namespace
 /** Parts of one body don't touch each other where they are nearer than this at rest, in its short
  * edges. */
 constexpr double kNeighbours = 0.5;
-
-std::vector<Index> numbersOf(const SurfaceElements& elements, bool edges)
-{
-  std::vector<Index> numbers;
-  for (const SurfaceElement& element : elements.all())
-  {
-    numbers.insert(numbers.end(), element.nodes.begin(), element.nodes.begin() + (edges ? 2 : 1));
-  }
-  return numbers;
-}
 
 /** Of the intruder's area, see Intruder. */
 double shareOf(const TissueBody& intruder)
@@ -81,37 +73,38 @@ TissueInTissue::TissueInTissue(const TissueBody& intruder, const TissueBody& hos
                                const ContactOptions& options)
     : host_(host),
       elements_(*intruder.surface, options, shareOf(intruder)),
-      element_nodes_(numbersOf(elements_, options.segments)),
+      element_nodes_(numbersOf(elements_.all(), options.segments)),
       field_(std::move(host_field), host.node_count, options.lazy_field),
       surface_(host, intruderOf(intruder, side, self), options)
 {
-  const int each = options.segments ? 2 : 1;
-  const ElementSet surface = {element_nodes_.data(), each, static_cast<Index>(elements_.size())};
-  const ElementSet tets = {host.tets->data()->data(), 4, static_cast<Index>(host.tets->size())};
-  finder_ = makePairFinder(kDefaultPairMethod, surface, tets, self);
+  numbers_ = elementSet(element_nodes_, options.segments);
+  finder_ = makePairFinder(kDefaultPairMethod, numbers_, tetsOf(host), self);
   if (self)
   {
     finder_->leaveOut(RestNeighbours(elements_, host));
   }
 }
 
-void TissueInTissue::beginStep(const Positions& at, double margin, bool refresh)
+void TissueInTissue::beginStep(const Positions& start, bool refresh)
 {
-  at_ = at;
-  field_.beginStep(*at_.host, refresh);
-  lookAround(margin);
+  start_ = start;
+  field_.beginStep(*start_.host, refresh);
+  lagElements();
 }
 
-void TissueInTissue::lookAround(double margin)
+void TissueInTissue::lookAround(const Positions& at, double margin)
 {
-  finder_->find(at_.intruder_expected->data(), at_.host_expected->data(), margin, candidates_);
+  const Vec3 *intruder = at.intruder->data(), *host = at.host->data();
+  finder_->find(intruder, host, margin, candidates_);
+  dropParted(numbers_, intruder, tetsOf(host_), host, margin, candidates_);
+  near_elements_.clear();
   seen_.assign(elements_.size(), 0);
   for (const ElementPair& pair : candidates_)
   {
     if (seen_[pair.first] == 0)
     {
       seen_[pair.first] = 1;
-      elements_.lag(pair.first, *at_.intruder, host_.short_edge);
+      near_elements_.push_back(pair.first);
     }
   }
   host_nodes_.clear();
@@ -128,11 +121,20 @@ void TissueInTissue::lookAround(double margin)
     }
   }
   field_.expect(host_nodes_);
+  lagElements();
+}
+
+void TissueInTissue::lagElements()
+{
+  for (const Index element : near_elements_)
+  {
+    elements_.lag(element, *start_.intruder, host_.short_edge);
+  }
 }
 
 bool TissueInTissue::find(const Points& intruder, const Points& host)
 {
-  return surface_.findHosts(elements_.all(), intruder, host, candidates_);
+  return surface_.findHosts(elements_.all(), numbers_, intruder, host, candidates_);
 }
 
 }  // namespace soft_tissue

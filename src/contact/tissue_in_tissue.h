@@ -25,24 +25,20 @@ class TissueInTissue
   void setAllowance(double depth_m) { surface_.setAllowance(depth_m); }
   HostField& field() { return field_; }
 
-  /** Positions of each body alone, m, when a step begins, and where they are expected to go. */
+  /** Of each body alone, m. */
   struct Positions
   {
     const Points* intruder = nullptr;
     const Points* host = nullptr;
-    const Points* intruder_expected = nullptr;
-    const Points* host_expected = nullptr;
   };
 
+  /** Takes areas, and the positions that depths are marched on. @param start  they stay */
+  void beginStep(const Positions& start, bool refresh);
   /**
-   * Takes areas and the positions that depths are marched on, and looks for candidates where bodies
-   * are expected.
-   * @param at      they stay
-   * @param margin  how much nearer both may come, m
+   * Looks for candidates; the step has begun.
+   * @param margin  how much both may move in all until they are too few, m
    */
-  void beginStep(const Positions& at, double margin, bool refresh);
-  /** Looks for candidates where bodies are expected now. */
-  void lookAround(double margin);
+  void lookAround(const Positions& at, double margin);
 
   bool hasCandidates() const { return !candidates_.empty(); }
 
@@ -66,16 +62,20 @@ class TissueInTissue
   DepthCurvature curvature(const ContactSample& sample) const { return surface_.curvature(sample); }
 
  private:
+  void lagElements();
+
   TissueBody host_;
   SurfaceElements elements_;
-  std::vector<Index> element_nodes_;  ///< what the finder numbers
+  std::vector<Index> element_nodes_;
+  ElementSet numbers_;  ///< of nodes, of the surface's elements
   std::unique_ptr<PairFinder> finder_;
   HostField field_;
   SurfaceInTissue surface_;
-  Positions at_;
+  Positions start_;
   std::vector<ElementPair> candidates_;
-  std::vector<Index> host_nodes_;  ///< of candidate tets
-  std::vector<char> seen_;         ///< per element, and then per host node
+  std::vector<Index> near_elements_;  ///< of candidates
+  std::vector<Index> host_nodes_;     ///< of candidate tets
+  std::vector<char> seen_;            ///< per element, and then per host node
 };
 
 }  // namespace soft_tissue

@@ -217,7 +217,7 @@ void ToolContact::exchangePlaces(StateArchive& archive)
   }
 }
 
-void ToolContact::forgetField()
+void ToolContact::forgetPlaces()
 {
   if (parts_->field)
   {

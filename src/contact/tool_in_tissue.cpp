@@ -1,5 +1,7 @@
 #include "tool_in_tissue.h"
 
+#include "soft_tissue_sim/collision/segment_filter.h"
+
 namespace soft_tissue
 {
 namespace
@@ -32,6 +34,8 @@ ToolInTissue::ToolInTissue(const TissueBody& tissue, const RigidBodyShape& tool,
 {
   ToolSurface surface = sampleToolSurface(tool);
   elements_ = elementsOf(surface, options, tissue.short_edge);
+  element_nodes_ = numbersOf(elements_, options.segments);
+  numbers_ = elementSet(element_nodes_, options.segments);
   nodes_T_ = std::move(surface.nodes);
   nodes_W_.resize(nodes_T_.size());
   boxes_W_.resize(elements_.size());
@@ -64,7 +68,8 @@ bool ToolInTissue::findHosts(const Points& x, const std::vector<Index>& tets)
     }
     grid_.forEachOverlap(box, [&](Index element) { candidates_.push_back({element, t}); });
   }
-  return surface_.findHosts(elements_, nodes_W_, x, candidates_);
+  dropParted(numbers_, nodes_W_.data(), tetsOf(tissue_), x.data(), 0.0, candidates_);
+  return surface_.findHosts(elements_, numbers_, nodes_W_, x, candidates_);
 }
 
 }  // namespace soft_tissue

@@ -42,6 +42,8 @@ class ToolInTissue
   TissueBody tissue_;
   Points nodes_T_;
   std::vector<SurfaceElement> elements_;
+  std::vector<Index> element_nodes_;
+  ElementSet numbers_;  ///< of nodes, of elements
   Points nodes_W_;
   std::vector<Box3> boxes_W_;  ///< of elements
   BoxGrid grid_;

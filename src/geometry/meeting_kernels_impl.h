@@ -73,6 +73,10 @@ inline Point operator-(const Point& a, const Point& b)
 {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+inline Point operator+(const Point& a, const Point& b)
+{
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 inline Point operator*(const Eight& s, const Point& p)
 {
   return {s * p.x, s * p.y, s * p.z};
@@ -129,6 +133,13 @@ class Weights
     u[2] = dot(n2_, p);
     u[3] = dot(n3_, p);
     u[0] = volume6_ - (u[1] + u[2] + u[3]);
+  }
+
+  /** Of the gradient of weight k times six volumes, which is twice a face's area. */
+  Eight squaredNormal(int k) const
+  {
+    const Point n = k == 0 ? all(-1.0f) * (n1_ + n2_ + n3_) : k == 1 ? n1_ : k == 2 ? n2_ : n3_;
+    return dot(n, n);
   }
 
  private:
@@ -247,7 +258,9 @@ inline unsigned bitsOf(const Masks& masks)
 #endif
 }
 
-inline unsigned tellSegments(const TetSegmentLanes& lanes)
+// However corners and ends then move by half of the margin, along the plane's normal as it is now
+// they stay apart.
+inline unsigned tellSegments(const TetSegmentLanes& lanes, float margin)
 {
   const Point corners[3] = {load(lanes.tet[0]), load(lanes.tet[1]), load(lanes.tet[2])};
   const Point ends[2] = {load(lanes.ends[0]), load(lanes.ends[1])};
@@ -265,8 +278,16 @@ inline unsigned tellSegments(const TetSegmentLanes& lanes)
   weights.of(ends[0], p);
   weights.of(ends[1], q);
   const Eight reach = larger(size.value(), extent.value());
-  const Eight tolerance = kRounding * size.value() * size.value() * reach + kLeast;
-  return bitsOf((Lines(p, q).highest < -tolerance) & (reach < kMost));
+  const Eight squared_size = size.value() * size.value();
+  const Eight tolerance = kRounding * squared_size * (reach + margin) + kLeast;
+  Masks apart = {};
+  for (int k = 0; k < 4; ++k)
+  {
+    const Eight out = -larger(p[k], q[k]) - tolerance;
+    const Eight least = (1.0f + kRounding) * margin * margin * weights.squaredNormal(k);
+    apart |= (out > 0.0f) & (out * out > least);
+  }
+  return bitsOf(apart & (reach < kMost));
 }
 
 const MeetingKernels& meetings()

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <vector>
+
 #include "soft_tissue_sim/mesh/generate.h"
 #include "soft_tissue_sim/mesh/topology.h"
 #include "support/geometry_oracle.h"
@@ -43,5 +46,24 @@ struct PairBody
   BoundarySurface surface;
   Points x;
 };
+
+/** Two bodies in each other. */
+struct PairMeeting
+{
+  PairBody a, b;
+  Points x_a, x_b;
+};
+
+/** Balls, and boxes of cubes that touch along whole faces, one with a bad node. */
+inline std::vector<PairMeeting> pairMeetings()
+{
+  const PairBody ball(makeBall(1.0, 600)), box(makeBox({3, 3, 3}, Vec3::Ones()));
+  std::vector<PairMeeting> all = {{ball, ball, ball.x, ball.moved(Vec3(1.5, 0.1, 0.05))},
+                                  {box, box, box.x, box.moved(Vec3(1.0, 0.0, 0.0))},
+                                  {box, box, box.x, box.moved(Vec3(2.0 / 3.0, 1.0 / 3.0, 0.0))},
+                                  {box, box, box.x, box.moved(Vec3(0.5, 0.0, 0.0))}};
+  all[3].x_b[5].y() = std::nan("");
+  return all;
+}
 
 }  // namespace soft_tissue::test

@@ -100,8 +100,8 @@ class ContactTerm : public EnergyTerm
   /** Of one of those samples. */
   virtual DepthCurvature curvature(const ContactSample& sample) const = 0;
   virtual void setStiffness(double pa_per_m) = 0;
-  /** Has nodal depths marched anew before they are next read. */
-  virtual void forgetField() = 0;
+  /** Has nodal depths marched anew, and what is near looked for, before they are next read. */
+  virtual void forgetPlaces() = 0;
   /** Writes, or reads, what a step began with, and what was found in it. */
   virtual void exchangePlaces(StateArchive& archive) = 0;
 

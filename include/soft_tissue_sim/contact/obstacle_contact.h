@@ -63,7 +63,7 @@ class ObstacleContact : public ContactTerm
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
   void exchangePlaces(StateArchive& archive) override;
-  void forgetField() override {}
+  void forgetPlaces() override {}
   void lagFriction(const Points& x);
   void lagPlaces(const Points& x);
   void select();

@@ -51,9 +51,16 @@ class TissueContact : public ContactTerm
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
   void exchangePlaces(StateArchive& archive) override;
-  void forgetField() override;
+  void forgetPlaces() override;
   void lagFriction(const Points& x, bool refresh);
   void lagPlaces(const Points& x, const Points& towards, bool refresh);
+  void beginSides(bool refresh);
+  double motionSinceLook() const;
+  double marginFor(double ahead, double room) const;
+  double shortEdges() const;
+  bool haveCandidates() const;
+  void lookAround(double margin);
+  void lookAgain();
   void addGrip(const ContactSample& sample, std::uint64_t place, const Points& x);
 
   struct Parts;

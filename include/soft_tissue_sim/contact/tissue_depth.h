@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "soft_tissue_sim/contact/contact_sample.h"
 #include "soft_tissue_sim/contact/depth_curvature.h"
@@ -50,14 +51,14 @@ class TissueDepth
   /**
    * Sets position, depth, gradient, nodes and coefficients of a sample at p.
    * @param p       point in `tet`, m, world
-   * @param coords  of `tet` at x
    * @param x       positions of the body alone, N x 3, m, as last prepared
    * @param field   marched on all nodes of `tet`
    * @param near    of this point, if it was evaluated before; its hint becomes the nearest triangle
-   * @return false where no part of the boundary is at a finite distance
+   * @return false where no part of the boundary is at a finite distance, or `tet` is flat and its
+   *         shape is asked for
    */
-  bool evaluate(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
-                const DistanceField& field, NearBoundary& near, ContactSample& sample) const;
+  bool evaluate(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                NearBoundary& near, ContactSample& sample) const;
 
   /**
    * The same at a point of the tissue's own surface that has come to be inside it.
@@ -65,16 +66,17 @@ class TissueDepth
    * @param rest_of  the point itself at rest, m: only boundary that is there no farther from the
    *                 place in the tet than from this is what the point may have come through
    */
-  bool evaluateSelf(const Vec3& p, Index tet, const TetCoordinates& coords, const Points& x,
-                    const DistanceField& field, const Points& rest, const Vec3& rest_of,
-                    NearBoundary& near, ContactSample& sample) const;
+  bool evaluateSelf(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                    const Points& rest, const Vec3& rest_of, NearBoundary& near,
+                    ContactSample& sample) const;
 
   /** What the second derivative of a sample's depth needs; x as it was evaluated at. */
   DepthCurvature curvature(const ContactSample& sample, const Points& x) const;
 
  private:
-  bool interpolate(const Vec3& p, const Tet& tet, const TetCoordinates& coords,
-                   const DistanceField& field, ContactSample& sample) const;
+  std::optional<TetCoordinates> coordinates(Index tet, const Points& x) const;
+  bool interpolate(const Vec3& p, Index tet, const Points& x, const DistanceField& field,
+                   ContactSample& sample) const;
   template <typename Allowed>
   TriangleTree::Nearest onOwnTriangle(const Vec3& p, Index tet, const Points& x,
                                       const Allowed& allowed) const;
@@ -105,6 +107,7 @@ class TissueDepth
   Points built_nodes_;       ///< the same where it was built
   NodeMotion motion_;        ///< of boundary nodes since tree_nodes_
   Travel travel_;
+  Points now_;  ///< to be Travel::nodes
 };
 
 }  // namespace soft_tissue

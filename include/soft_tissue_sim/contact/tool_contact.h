@@ -44,7 +44,7 @@ class ToolContact : public ContactTerm
   DepthCurvature curvature(const ContactSample& sample) const override;
   void setStiffness(double pa_per_m) override;
   void exchangePlaces(StateArchive& archive) override;
-  void forgetField() override;
+  void forgetPlaces() override;
   void lagFriction(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
   void lagPlaces(const Points& x, const Pose& X_WT_before, const Pose& X_WT, bool refresh);
   void select();

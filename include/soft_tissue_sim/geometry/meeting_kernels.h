@@ -28,7 +28,7 @@ struct TetSegmentLanes
 enum class Meeting : std::uint8_t
 {
   unclear,
-  apart,    ///< by far more than the tolerances of tetsOverlap() and clipSegment()
+  apart,    ///< by far more than the tolerances of tetsOverlap()
   together  ///< by far more than rounding
 };
 
@@ -38,8 +38,10 @@ struct MeetingKernels
   /** Separating planes: faces of either tet, and planes through edges of the first.
    * Source: [Ganovelli2002] edges by the heights over the faces beside them. */
   void (*tets)(const TetPairLanes& lanes, Meeting* meetings);
-  /** Clips. @return bit i: pair i is apart, see Meeting */
-  unsigned (*segments)(const TetSegmentLanes& lanes);
+  /** Heights over the tet's faces.
+   * @param margin  m
+   * @return bit i: a face's plane parts pair i by more than the margin and rounding */
+  unsigned (*segments)(const TetSegmentLanes& lanes, float margin);
 };
 
 /** The kernels for this machine. */

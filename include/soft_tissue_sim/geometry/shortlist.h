@@ -12,7 +12,7 @@ namespace soft_tissue
 class Shortlist
 {
  public:
-  static constexpr int kMost = 8;
+  static constexpr int kMost = 6;
 
   int size() const { return size_; }
   Index operator[](int i) const { return triangle_[i]; }

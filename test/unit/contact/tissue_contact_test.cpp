@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "soft_tissue_sim/geometry/barycentric.h"
 #include "support/contact_derivatives.h"
 #include "support/tissue_pair.h"
 
@@ -288,6 +289,10 @@ TEST(SelfContact, PushesWhatWentThroughItselfOutAgain)
     for (const ContactSample& s : samples)
     {
       deepest = std::max(deepest, s.depth);
+      const Tet& t = self.body.mesh.tets[s.host];
+      const auto coords = tetCoordinates(x[t[0]], x[t[1]], x[t[2]], x[t[3]]);
+      ASSERT_TRUE(coords);
+      EXPECT_GT(coords->weights(s.position).minCoeff(), -1e-9) << "it stands in its tet";
     }
     std::printf("  %s: deepest %.2f mm of %.2f mm\n", nameOf(options).c_str(), 1e3 * deepest,
                 1e3 * deep);

@@ -64,12 +64,11 @@ class Depths
       const Index t = ball_.tets[i];
       const Tet& tet = ball_.body.mesh.tets[t];
       const Vec3 p = 0.25 * (x[tet[0]] + x[tet[1]] + x[tet[2]] + x[tet[3]]) + off;
-      const auto coords = tetCoordinates(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]);
       ContactSample sample, expected;
       NearBoundary none;
       const Vec3 place = near_[i].place;
-      const bool is = depth_.evaluate(p, t, *coords, x, *ball_.field, near_[i], sample);
-      EXPECT_EQ(is, fresh.evaluate(p, t, *coords, x, *ball_.field, none, expected));
+      const bool is = depth_.evaluate(p, t, x, *ball_.field, near_[i], sample);
+      EXPECT_EQ(is, fresh.evaluate(p, t, x, *ball_.field, none, expected));
       searched += place == near_[i].place ? 0 : 1;
       EXPECT_EQ(sample.depth, expected.depth);
       EXPECT_EQ(sample.gradient, expected.gradient);
@@ -162,10 +161,9 @@ TEST(TissueDepth, GoesOnWhereNothingWasFiniteOrTheTissueCameFar)
     lost.prepare(there);
     const Tet& tet = ball.body.mesh.tets[0];
     const Vec3 p = 0.25 * (there[tet[0]] + there[tet[1]] + there[tet[2]] + there[tet[3]]);
-    const auto coords = tetCoordinates(there[tet[0]], there[tet[1]], there[tet[2]], there[tet[3]]);
     NearBoundary near;
     ContactSample sample;
-    ASSERT_TRUE(lost.evaluate(p, 0, *coords, there, *ball.field, near, sample));
+    ASSERT_TRUE(lost.evaluate(p, 0, there, *ball.field, near, sample));
     EXPECT_TRUE(std::isfinite(sample.depth));
   }
 }
@@ -196,8 +194,7 @@ class SelfDepths
       const Vec3 rest_of = rest[surface[31 * i % surface.size()]] + slid;
       const Vec3 place = near_[i].place;
       ContactSample sample;
-      const bool is =
-          depth_.evaluateSelf(p, t, *coords, x, *ball_.field, rest, rest_of, near_[i], sample);
+      const bool is = depth_.evaluateSelf(p, t, x, *ball_.field, rest, rest_of, near_[i], sample);
       searched += place == near_[i].place ? 0 : 1;
       const double expected = distanceOnThatSide(p, tet, coords->weights(p), x, rest_of);
       EXPECT_EQ(is, std::isfinite(expected));
